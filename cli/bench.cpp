@@ -68,7 +68,7 @@ validation::SceneRequest::Scene loadScene(const std::string& name, int size, con
     return {std::move(loaded.scenario), std::move(loaded.text), std::move(arguments)};
 }
 
-/// A scene at the sizes that were asked for: --size, with --growth its own list, else as it is.
+/// A scene at the requested sizes: --size, with --growth its own list, else as it is.
 void addScenes(const std::string& name, const BenchArguments& a, validation::SceneRequest& request) {
     auto scene = loadScene(name, 0, a);
     std::vector<int> sizes = a.sizes;
@@ -111,7 +111,7 @@ double budgetOf(const BenchArguments& a) {
     return a.budget.value_or(usualParts ? kPartsBudget : a.target.budget);
 }
 
-/// Cases of the isolated parts that are asked for. Throws std::invalid_argument where --only names none.
+/// Cases of the isolated parts that are requested. Throws std::invalid_argument where --only names none.
 std::vector<BenchWork> planParts(const BenchArguments& a, validation::BenchRequest request) {
     std::vector<BenchWork> work;
     for (const auto& family : validation::benchFamilies()) {
@@ -172,7 +172,7 @@ void checkParts(const BenchArguments& a) {
     }
 }
 
-/// A killed run goes on with what it was asked for: the cases must be the same.
+/// A killed run goes on with its stored request: the cases must be the same.
 void checkSameBench(const fs::path& directory, const std::vector<BenchWork>& work) {
     const auto stored = results::readRun(directory);
     for (const auto& c : stored.bench.cases) {

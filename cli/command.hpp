@@ -25,7 +25,7 @@ namespace rigor::cli {
 
 /// Exit codes, documented in `rigor --help` and the README.
 enum ExitCode : int {
-    kOk = 0,            ///< done; for `validate`: what runIsGreen() (runner.hpp) asks for holds
+    kOk = 0,            ///< done; for `validate`: the conditions of runIsGreen() (runner.hpp) hold
     kRed = 1,           ///< the run finished and something in it is red
     kBadInput = 2,      ///< command line, scenario file or engine spec
     kInternal = 3,      ///< the environment or Rigor itself failed

@@ -112,7 +112,7 @@ Json studies() {
     return list;
 }
 
-/// A choice of the in-house engine; `spec` is how a command line, a study or a suite asks for it, and with
+/// A choice of the in-house engine; `spec` is how a command line, a study or a suite names it, and with
 /// "engines" a scenario.
 Json choiceJson(const std::string& stage, const std::string& name, bool isDefault,
                 const std::string& summary) {

@@ -4,7 +4,7 @@
 // Look-up in the tables that are made from .def files: metrics, scales, symmetries, importers. Such a file is
 // included twice, once with a macro that declares the functions of a line and once with one that makes the
 // line an entry. The macros differ from table to table, because their lines do, and no macro can contain an
-// #include; what a table is asked is the same for all and stands here.
+// #include; the queries of a table are the same for all and are here.
 #pragma once
 
 #include <string>

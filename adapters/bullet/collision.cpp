@@ -204,7 +204,7 @@ class ContactFinder {
         return contacts;
     }
 
-    /// btCollisionWorld::contactPairTest, which asks for closest points instead of contacts.
+    /// btCollisionWorld::contactPairTest, which requests closest points instead of contacts.
     std::vector<ContactPoint> findByPairTest(Side& a, Side& b) {
         btDbvtBroadphase broadphase;
         btCollisionWorld world(&dispatcher_, &broadphase, &configuration_);

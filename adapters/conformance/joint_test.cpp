@@ -340,7 +340,7 @@ TEST_P(Joints, ASpringByFrequencyKeepsTheStiffnessOfTheStart) {
     within("spring_by_frequency", norm(runOf(true) - runOf(false)), 1e-4);
 }
 
-/// A door of moment 0.5 + 2 0.9^2 about its hinge: what swings at the frequency asked for.
+/// A door of moment 0.5 + 2 0.9^2 about its hinge: what swings at the requested frequency.
 TEST_P(Joints, AHingeSpringSwingsWhatTurnsAboutTheHinge) {
     if (!hasJoint("hinge.spring")) GTEST_SKIP() << "no hinge springs";
     Scenario s = scene();

@@ -33,7 +33,7 @@ constexpr std::size_t kMostContacts = 64;
 /// Tolerance of libccd's distance iteration, FCL's own value: it leaves errors of 2e-4 m at round shapes that
 /// are apart, but with a smaller one the assertions of its EPA fail and end the process.
 constexpr double kDistanceTolerance = 1e-6;
-/// Overlaps [m] below which EPA is not asked; it failed at exact touch.
+/// Overlaps [m] below which EPA is not called; it failed at exact touch.
 constexpr double kLeastDepth = 1e-7;
 constexpr double kSamePoint = 1e-9;  ///< corners of a prism's two edges agree to rounding [m]
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Contact problems: what a solver is asked in one step, without collision detection and integration
-// around it. Per contact the normal component first, then the tangents (1 in 2D, 2 in 3D):
+// Contact problems: the problem of a solver in one step, without collision detection and integration around
+// it. Per contact the normal component first, then the tangents (1 in 2D, 2 in 3D):
 //     local    u = W r + q
 //     global   M v = H r + f,   u = H^T v + w                     (W = H^T M^-1 H, q = w + H^T M^-1 f)
 //     law      u_N >= 0, r_N >= 0, u_N r_N = 0;   |r_T| <= mu r_N, and r_T opposite to u_T at its limit where

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Presets: names for whole sets of option values, the value of a spec's key "preset". Every engine has
-// "default", as it ships, and "matched", as near as it comes to what is asked of all alike; Option holds
-// their values. An engine that is meant to be used in further ways is an EngineWithPresets (found by
+// "default", as it ships, and "matched", as near as it comes to the settings common to all engines; Option
+// holds their values. An engine that is meant to be used in further ways is an EngineWithPresets (found by
 // dynamic_cast).
 #pragma once
 

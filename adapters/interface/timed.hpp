@@ -52,7 +52,7 @@ class TimedBroadPhaseEngine : public BroadPhaseEngine {
 class CollisionBatch {
   public:
     virtual ~CollisionBatch() = default;
-    /// Asks the engine's narrow phase about every pair, each as at its first contact: nothing is remembered
+    /// Queries the engine's narrow phase for every pair, each as at its first contact: nothing is remembered
     /// of earlier runs. Contacts stay in the engine's own form. Returns how many there are, of all pairs.
     virtual std::size_t run() = 0;
     /// The contacts of pair i, by the same way as run(): those that overlap, and those found apart.

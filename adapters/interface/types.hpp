@@ -48,7 +48,7 @@ struct ContactPoint {
 enum class Realisation { Exact, Approximate, Unsupported };
 const char* realisationName(Realisation r);
 
-/// One line of the parity ledger: what was asked for, what the engine really does, and why they differ.
+/// One line of the parity ledger: the requested value, what the engine really does, and why they differ.
 struct LedgerEntry {
     std::string topic;  ///< short snake_case key: "friction_law", "collision_margin", "sleeping", ...
     std::string requested;

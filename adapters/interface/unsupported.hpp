@@ -14,8 +14,8 @@ enum class Refusal { NotInAdapter, NotInLibrary };
 const char* refusalName(Refusal refusal);  ///< "adapter" or "library", as results store it
 const char* refusalText(Refusal refusal);  ///< "not in the adapter yet" or "not in the library"
 
-/// A scenario asks for what cannot be done here. It is not an error but a recorded outcome. Made by
-/// notInAdapter and notInLibrary; what is thrown with a text of its own counts as not in the adapter.
+/// A scenario requires a feature that is not available here. It is not an error but a recorded outcome. Made
+/// by notInAdapter and notInLibrary; what is thrown with a text of its own counts as not in the adapter.
 class Unsupported : public std::runtime_error {
   public:
     explicit Unsupported(const std::string& message) : std::runtime_error(message), lacking_(message) {}

@@ -5,7 +5,7 @@
 // forces (contact joints are made anew, random numbers are seeded before each step); angles of user-mode
 // motors are the adapter's. Positions, velocities and forces go in as they came out; orientations do not: ODE
 // normalises what it is given, which changes the last bit of most unit quaternions. A factor is looked for
-// with which the normalised product is the quaternion asked for.
+// with which the normalised product is the requested quaternion.
 #include <array>
 #include <cmath>
 #include <cstring>

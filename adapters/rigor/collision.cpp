@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Collision queries by the in-house narrow phases, in double precision unless the settings say single.
-// Contacts are those of the algorithm asked for. The signed distance of overlapping shapes is its depth;
+// Contacts are those of the requested algorithm. The signed distance of overlapping shapes is its depth;
 // shapes that are apart have the distance and points of closestPoints, exact for every pair.
 #include <algorithm>
 #include <cmath>
@@ -167,7 +167,7 @@ class RigorCollision final : public TimedCollisionEngine {
     }
 
   private:
-    /// Narrow phases by name, made when first asked for: another engine's module is loaded once.
+    /// Narrow phases by name, made at the first request: another engine's module is loaded once.
     template <class S>
     class Made {
       public:

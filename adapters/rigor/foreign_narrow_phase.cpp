@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The other engine is asked about overlaps only: none of them reports contacts of shapes that are apart, so
+// The other engine is queried for overlaps only: none of them reports contacts of shapes that are apart, so
 // resting bodies sink in by the slop before they are held. Its contacts become one manifold: the normal of
 // the deepest, the contacts that share it, reduced to four. Engines name no features; points get names of
 // their own, and impulses are taken over from the nearest point of the last step.
@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kForeign[] = {"bullet", "fcl"};
 
-/// Contacts asked for before the reduction.
+/// Contacts requested before the reduction.
 constexpr int kMostContacts = 16;
 /// Cosine of the largest angle to the deepest contact's normal, 8 degrees: a manifold has one normal.
 constexpr double kSameNormal = 0.99;

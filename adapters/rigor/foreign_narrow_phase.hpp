@@ -12,7 +12,7 @@
 
 namespace rigor::adapter {
 
-/// Names of the engines that can be asked and are installed, sorted; each is the name of its adapter.
+/// Names of the engines that can be queried and are installed, sorted; each is the name of its adapter.
 std::vector<std::string> foreignNarrowPhases();
 /// Installed or not.
 bool isForeignNarrowPhase(const std::string& name);

@@ -96,7 +96,7 @@ TEST(Choices, EveryOneRunsFromAStudyFile) {
     }
 }
 
-/// A scenario asks for a choice itself; the command line has the last word.
+/// A scenario names a choice itself; the command line has the last word.
 TEST(Choices, AScenarioFileAsksForThem) {
     const auto write = [](const json& engines) {
         json scenario = json::parse(R"({"rigor": 1, "name": "mine", "title": "mine", "dimension": 3,

@@ -83,8 +83,7 @@ TEST_F(CompareCommand, ValidateAgainstABaseline) {
     EXPECT_FALSE(fs::exists(folder_ / "c")) << "said before anything runs";
 }
 
-/// Two runs without a common case say what each has; what differs on purpose is compared when that is asked
-/// for.
+/// Two runs without a common case say what each has; deliberate differences are compared on request.
 TEST_F(CompareCommand, NothingInCommonIsAnErrorAndPairsAreCompared) {
     ASSERT_EQ(rigor(validate("ode", "ode")).code, 0);
     const auto nothing = rigor("compare " + path("a") + " " + path("ode"));

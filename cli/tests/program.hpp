@@ -14,7 +14,7 @@ namespace rigor::cli_test {
 
 struct Result {
     int code = -1;
-    std::string out;  ///< standard output and error together unless `only stdout` was asked for
+    std::string out;  ///< standard output and error together unless `only stdout` was requested
 };
 
 inline Result rigor(const std::string& arguments, bool withErrors = true,

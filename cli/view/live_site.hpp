@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The live view: its page, and what the page asks.
+// The live view: its page, and the page's requests.
 #pragma once
 
 #include <atomic>
@@ -36,7 +36,7 @@ class LiveSite final : public Site {
     std::filesystem::path binary_;
     std::atomic<int> waiting_{0};
     std::mutex describing_;
-    std::string engines_;  ///< once they have been asked
+    std::string engines_;  ///< once they have been queried
 };
 
 }  // namespace rigor::view

@@ -11,10 +11,10 @@
 // ([Ericson2005] section 7.1.6): no search for duplicates.
 //
 // Choice of c: the edge length that nine boxes in ten stay below. Boxes longer than 2c would fill many cells;
-// they are kept out of the table, and each of them asks the cells it meets, or, when these are more than
-// there are small boxes (floors, half-spaces), all boxes directly. Cell numbers are clamped to +-2^30: far
-// away boxes share the outermost cells, which costs time and loses no pair, since the clamped cell(x) is
-// monotone.
+// they are kept out of the table, and each of them queries the cells that it overlaps, or, when these are
+// more than there are small boxes (floors, half-spaces), all boxes directly. Cell numbers are clamped to
+// +-2^30: far away boxes share the outermost cells, which costs time and loses no pair, since the clamped
+// cell(x) is monotone.
 //
 // Cost per update: O(n 2^dim + tests in cells + large boxes (their cells or n)). Limits: no use is made of
 // the last update; a scene whose sizes vary by orders of magnitude has cells crowded with small boxes or a

@@ -42,7 +42,7 @@ namespace {
 
 constexpr std::size_t kChildren = 8;
 constexpr std::size_t kNodeGrain = 32;          ///< nodes: some microseconds of work
-constexpr std::uint64_t kGrown = 320;           ///< mean growth of nodes that asks for a sort; 256 is none
+constexpr std::uint64_t kGrown = 320;           ///< mean growth of nodes that triggers a sort; 256 is none
 constexpr std::size_t kUnitsWorthSharing = 16;  ///< units of 64 boxes each
 
 template <class S>

@@ -23,7 +23,7 @@
 //
 // [Mirtich1996] section 2.3 has steps 1 and 2 for a simulation that stops all bodies at every impact; here
 // the others are not stopped, as usual in engines of fixed steps: a contact or joint of a body that collides
-// is not asked in between, it corrects what the impact has done to it in the next step.
+// is not solved in between, it corrects what the impact has done to it in the next step.
 //
 // Cost: O(bodies) when none is fast; else O(fast shapes times shapes) box tests, one time of impact for each
 // pair that passes, and for each impact those of two bodies again. Limits: bodies in joints and stacks get

@@ -13,7 +13,7 @@ namespace rigor::engine {
 
 /// Impulses at the points of one manifold by sequential impulses, whatever the world's solver: Newton's
 /// restitution e on the normal velocities u_0 from before, n . u >= -e n . u_0 (impulse > 0 only with
-/// equality), and the world's friction law. Other contacts and joints of the bodies are not asked.
+/// equality), and the world's friction law. Other contacts and joints of the bodies are not considered.
 template <class S>
 class ImpactSolver {
   public:

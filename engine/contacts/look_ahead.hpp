@@ -16,7 +16,7 @@ template <class S>
 class LookAhead {
   public:
     virtual ~LookAhead() = default;
-    /// True: boxes are to be grown, and pairs asked about, by the functions below.
+    /// True: boxes are to be grown, and pairs queried, by the functions below.
     virtual bool looksAhead() const { return false; }
     /// The box of a shape that may move, grown by its way ahead.
     virtual void growBox(std::uint32_t shape, Aabb<S>& box) const {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The mistake: the impulse that makes the relative velocity zero is applied without asking for its sign.
-// Effect: contacts pull as well as push; what touches once sticks: a body can be stopped but not lifted
-// off. Cure: lambda_n >= 0, on the accumulated impulse.
+// The mistake: the impulse that makes the relative velocity zero is applied without a test of its sign.
+// Effect: contacts pull as well as push; what touches once sticks: a body can be stopped but not lifted off.
+// Cure: lambda_n >= 0, on the accumulated impulse.
 #include "engine/faults/fault.hpp"
 
 namespace rigor::engine {

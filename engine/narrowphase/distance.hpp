@@ -16,7 +16,7 @@ struct ClosestPoints {
     typename S::Vec pointA, pointB;  ///< points on the surfaces of A and B, world frame [m]
     typename S::Vec normal;          ///< unit, world frame, A to B; defined even where the points coincide
     typename S::Real distance = 0;   ///< [m]; < 0: minus the penetration depth
-    int iterations = 0;              ///< support points asked for
+    int iterations = 0;              ///< support points computed
     bool converged = false;          ///< upper and lower bound of the distance met, to rounding
 };
 

@@ -105,7 +105,7 @@ struct CoreContact {
     typename S::Vec normal;         ///< unit, A to B
     typename S::Real distance = 0;  ///< [m]; < 0: minus the depth
     typename S::Vec onA, onB;       ///< points on the cores; onB - onA = distance * normal
-    int iterations = 0;             ///< support points asked for
+    int iterations = 0;             ///< support points computed
     bool converged = false;
 };
 /// Closest points of the cores by GJK, and by EPA where the cores overlap.

@@ -4,8 +4,8 @@
 // The world: what a program builds, steps and reads. Two worlds share nothing; a copy of a world has the same
 // future, bit for bit. Instantiated for Space2f, Space2d, Space3f and Space3d.
 //
-// A world is its parts (world_parts.hpp) and the state of a step (step.hpp). This class checks what a program
-// asks for, wakes what that may move, and hands it to the part whose it is.
+// A world is its parts (world_parts.hpp) and the state of a step (step.hpp). This class checks the arguments
+// of calls, wakes the bodies that they may move, and passes the calls on to the parts.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The islands of a world: dynamic bodies, asleep or not, that contacts and joints connect. They are found when
-// they are asked for and stay until changed(): building a world changes what they connect, but what falls
-// asleep or wakes is decided on those of the last step.
+// The islands of a world: dynamic bodies, asleep or not, that contacts and joints connect. They are found on
+// demand and stay until changed(): building a world changes what they connect, but what falls asleep or wakes
+// is decided on those of the last step.
 #pragma once
 
 #include <vector>
@@ -24,7 +24,7 @@ class WorldIslands {
         const Joints<S>& joints;
     };
     void changed() { stale_ = true; }
-    /// Found anew if they have changed. The first to ask after that must be alone.
+    /// Found anew if they have changed. The first call after that must not be concurrent.
     const Islands& get(const Links& links) const {
         if (stale_) find(links);
         return islands_;

@@ -59,7 +59,7 @@ class WorldQueries {
   public:
     using Real = typename S::Real;
     using Vec = typename S::Vec;
-    /// True for bodies to ask; null: all.
+    /// True for bodies to query; null: all.
     using Filter = std::function<bool(BodyId)>;
 
     /// `world` must outlive this and not change meanwhile.

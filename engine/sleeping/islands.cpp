@@ -27,7 +27,7 @@ void Islands::finish(std::span<const std::uint8_t> member, std::span<const BodyI
     island_.assign(n, kNullIndex);
     starts_.reserve(n + 2);
     starts_.assign(1, 0);
-    // Sizes first; a root comes before its bodies, so its number is known when they ask for it.
+    // Sizes first; a root comes before its bodies, so its number is known when they need it.
     for (std::uint32_t i = 0; i < n; ++i) {
         if (!member[i]) continue;
         const std::uint32_t root = rootOf(i);

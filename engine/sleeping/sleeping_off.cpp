@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Every body is always awake: nothing at rest is changed, as accuracy asks for.
+// Every body is always awake: nothing at rest is changed, as accuracy requires.
 #include "engine/sleeping/sleeping.hpp"
 
 namespace rigor::engine {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Data beside the page, read when it is asked for: a page opened from disk may run scripts beside it, but not
-// fetch files. `data/<name>.js` calls rigorData(name, base64 of gzip); web/src/common/data_files.ts loads it.
+// Data beside the page, read on demand: a page opened from disk may run scripts beside it, but not fetch
+// files. `data/<name>.js` calls rigorData(name, base64 of gzip); web/src/common/data_files.ts loads it.
 #pragma once
 
 #include <string>

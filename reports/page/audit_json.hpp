@@ -9,7 +9,7 @@
 
 namespace rigor::report {
 
-/// The audit of a case; of what its run acted upon (null where that was not asked); per scenario and auditor
+/// The audit of a case; of what its run acted upon (null if that was not requested); per scenario and auditor
 /// over all cases of a run.
 Json auditJson(const results::CaseRow& row);
 Json inRunJson(const results::CaseRow& row);

@@ -245,7 +245,7 @@ std::vector<std::size_t> order(const ViewModel& view, std::size_t room) {
     return chosen;
 }
 
-/// Accuracy, regression and endings, each in as many lines as the width asks for.
+/// Accuracy, regression and endings, each in as many lines as the width requires.
 std::vector<std::string> totalsLines(const ViewModel& view, std::size_t width) {
     std::vector<std::string> lines;
     const auto planned = std::max<std::int64_t>(view.run().plannedCases, view.totals().total);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Replay files: what is asked for is in them, within the budget, and reads back within half a quantum.
+// Replay files: the requested data are in them, within the budget, and reads back within half a quantum.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -366,7 +366,7 @@ TEST_F(ReplayFiles, RunsThatEndEarlyKeepWhatTheyHave) {
 }
 
 TEST_F(ReplayFiles, TimeStepsAreThoseThatWereRun) {
-    run_.scenarios[0].timeSteps = {1.0, 0.5};  // the file's; the command line asked for others
+    run_.scenarios[0].timeSteps = {1.0, 0.5};  // the file's; the command line requested others
     run_.cases[1].dt = 0.02;
     const ViewModel view(run_);
     EXPECT_EQ(replaySteps(view, 0), (std::vector<double>{0.02, 0.01}));

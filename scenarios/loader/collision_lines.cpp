@@ -12,7 +12,7 @@
 //                   normal_tolerance}; missing or null where not known
 //
 // The axis of capsule, cylinder and cone is local z (Rigor's format: local y). Ellipsoids and hulls without
-// volume are kept as cases that cannot be asked.
+// volume are kept as cases that cannot be queried.
 #include "scenarios/loader/collision_lines.hpp"
 
 #include <cmath>

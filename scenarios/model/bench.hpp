@@ -43,7 +43,7 @@ struct QualityBound {
 };
 
 /// Steps of the scenario's first dt: `warmUpSteps` without a clock, then `timedSteps` with one, then without
-/// one up to step `qualityStep`, where the bounds are asked.
+/// one up to step `qualityStep`, where the bounds are tested.
 struct BenchPlan {
     int warmUpSteps = 0;                ///< >= 0
     int timedSteps = 1;                 ///< >= 1

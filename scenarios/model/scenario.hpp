@@ -199,7 +199,7 @@ struct Joint {
     double breakForce = 1e300;   ///< a step's mean force above this breaks the joint [N]; beyond 1e299: never
     double breakTorque = 1e300;  ///< largest torque about B's anchor [N m]
 
-    /// "limit", "motor", "spring", "break": what it asks for beyond its type.
+    /// "limit", "motor", "spring", "break": its requirements beyond its type.
     std::vector<std::string> features() const;
 };
 

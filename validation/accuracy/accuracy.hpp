@@ -42,7 +42,7 @@ struct SceneScales {
     std::optional<double> jointTravel;     ///< [m] or [rad]
 };
 
-/// `reference` may be null; then what the initial state says. The exact solution is asked at 512 evenly
+/// `reference` may be null; then what the initial state says. The exact solution is evaluated at 512 evenly
 /// spaced times of the scenario, the same for every engine and time step. Energy: the largest kinetic energy
 /// of the exact solution where it is known in full, else that at the start and the weights times the height
 /// of the scene together.

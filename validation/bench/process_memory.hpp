@@ -12,9 +12,9 @@
 
 namespace rigor::validation {
 
-/// Calls of the C library's allocator by all of this process and the bytes they asked for, since it began.
-/// Empty unless the counting library (preload/) was put before the others. Pools inside an engine and mmap
-/// are not seen.
+/// Calls of the C library's allocator by all of this process and the bytes that they requested, since it
+/// began. Empty unless the counting library (preload/) was put before the others. Pools inside an engine and
+/// mmap are not seen.
 struct Allocations {
     std::uint64_t calls = 0, bytes = 0;
 };

@@ -62,7 +62,7 @@ double QualityMeter::jointGap(std::span<const BodyState> states) const {
     Trajectory frames;
     frames.dt = 1.0;
     frames.bodyCount = states.size();
-    for (const double t : {0.0, 1.0}) {  // a metric asks for two frames at least
+    for (const double t : {0.0, 1.0}) {  // a metric needs two frames at least
         frames.times.push_back(t);
         frames.states.insert(frames.states.end(), states.begin(), states.end());
     }

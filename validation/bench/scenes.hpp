@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Scenes as cases of a bench: which steps are timed, and every engine that is asked for at every number of
-// threads it can have.
+// Scenes as cases of a bench: which steps are timed, and every requested engine at every number of threads it
+// can have.
 #pragma once
 
 #include <string>

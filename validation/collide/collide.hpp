@@ -127,7 +127,7 @@ std::vector<adapter::EngineSpec> allCollisionSpecs(const std::filesystem::path& 
 /// of the spec.
 void checkCollisionSpec(const adapter::EngineSpec& spec, const std::filesystem::path& binary);
 
-/// Asks all specs and the oracle. `onProgress` gets (answered, total) from time to time.
+/// Queries all specs and the oracle. `onProgress` gets (answered, total) from time to time.
 CollideRun runCollide(const std::vector<scenario::CollisionFile>& files,
                       const std::vector<adapter::EngineSpec>& specs, const CollideOptions& options,
                       const std::function<void(std::int64_t, std::int64_t)>& onProgress,

@@ -62,7 +62,7 @@ CollideVerdict verdictOf(const CollideTruth& truth, const CollideTolerance& tole
         return CollideVerdict::WrongOverlap;
     if (answer.distanceError && *answer.distanceError > allowedLength(truth, tolerance))
         return CollideVerdict::WrongDepth;
-    if (sd >= -touch) return CollideVerdict::Ok;  // a normal is asked of overlaps only
+    if (sd >= -touch) return CollideVerdict::Ok;  // a normal is required of overlaps only
     if (!answer.normal) return CollideVerdict::NoNormal;
     const bool judged = answer.normalAngle || answer.normalExcess;
     return !judged || normalIsRight(truth, tolerance, answer) ? CollideVerdict::Ok

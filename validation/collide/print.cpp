@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using scenario::Vec3;
 
-constexpr std::size_t kPage = 60;  ///< lines of answers that are shown without being asked for
+constexpr std::size_t kPage = 60;  ///< lines of results that are shown by default
 
 Json number(const std::optional<double>& value) {
     return value ? Json(finiteToJson(*value)) : Json(nullptr);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The parent's side: the oracle on threads of this process, every engine in children that are asked a chunk
-// of cases each. A child that ends early has written its answers up to the case that ended it: that one is
-// recorded as crashed or timed out, and another child goes on behind it.
+// The parent's side: the oracle on threads of this process, every engine in children with a chunk of cases
+// each. A child that ends early has written its answers up to the case that ended it: that one is recorded as
+// crashed or timed out, and another child goes on behind it.
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -144,7 +144,7 @@ std::vector<adapter::EngineSpec> allCollisionSpecs(const fs::path& binary, int j
     const std::vector<std::string> engines = adapter::availableEngines();
     for (const EngineDescription& d : describeEngines(engines, binary, jobs)) {
         if (!d.problem.empty() || !d.capabilities.collision) continue;
-        // Presets of which collision queries see a difference are both asked.
+        // Presets that differ in collision queries are both queried.
         const auto differs = [&](const adapter::Option& o) {
             const auto& keys = d.capabilities.queryOptions;
             return std::find(keys.begin(), keys.end(), o.key) != keys.end() &&
@@ -158,7 +158,7 @@ std::vector<adapter::EngineSpec> allCollisionSpecs(const fs::path& binary, int j
             specs.push_back({d.info.name, {}});
             continue;
         }
-        // Another engine's narrow phase is asked as that engine.
+        // Another engine's narrow phase is queried as that engine.
         for (const std::string& value : choice->values)
             if (std::find(engines.begin(), engines.end(), value) == engines.end())
                 specs.push_back({d.info.name, {{kAlgorithmKey, value}}});

@@ -168,7 +168,7 @@ class Fitting {
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
-/// The baselines ask the references in this process: they have to be known to finish.
+/// The baselines evaluate the references in this process: they have to be known to finish.
 void requireReferences(const FitTask& task, const FitOptions& options) {
     std::vector<ReferenceQuestion> questions;
     for (const auto* part : {&task.train, &task.test})

@@ -4,8 +4,8 @@
 // A free box of 0.1 x 0.4 x 0.9 m and 10 kg in Gazebo classic, for 10 s: DIR/BENCHMARK_boxes_dt.csv, the
 // errors that its engines were published with at ten time steps. Two motions: `simple`, without gravity,
 // turning about its longest principal moment; `complex`, under gravity, tumbling about the middle one. The
-// scenarios are the same boxes with an exact solution; the study asks whether the engines of today give the
-// published errors again.
+// scenarios are the same boxes with an exact solution; the study tests whether today's engines reproduce the
+// published errors.
 //
 // Published, each the largest in 10 s: linPositionErr [m] and angPositionErr [rad] are position_max and
 // orientation_max; angMomentumErr = |H - H0|/|H0| is angular_momentum_drift; energyError = |E - E0|/E0 is

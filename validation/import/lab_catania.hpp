@@ -31,7 +31,7 @@ nlohmann::ordered_json part(const std::string& name, const std::string& scenario
                             const nlohmann::ordered_json& findings);
 
 /// Refuses what a data set of means can not do: throws std::invalid_argument where a selection or a part to
-/// fit on is asked for.
+/// fit on is requested.
 void requireWhole(const ImportRequest& request, const std::string& dataSet);
 
 /// LICENSE of the folder or of the one that it lies in; "" without one.

@@ -3,7 +3,7 @@
 //
 // The force of a drag: F = k (target - x) - c v at the held point x, critically damped,
 //     c = 2 sqrt(k m),   1/m = 1/M + |r x n|^2 / I      (n: along the spring; m: what is felt at the point)
-// constant during a step. k h^2 / m <= 1/4 keeps that stable whatever the stiffness asked for.
+// constant during a step. k h^2 / m <= 1/4 keeps that stable for every requested stiffness.
 #pragma once
 
 #include <span>

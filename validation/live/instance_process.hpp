@@ -29,8 +29,8 @@ class InstanceProcess {
         std::string error;    ///< Refused: "unsupported", "bad_input", "error"
         std::string message;  ///< reason if it is not Done
     };
-    /// Asks and waits for the answer, at most `seconds`. Once the child has crashed or timed out it is gone,
-    /// and every answer is that.
+    /// Sends a request and waits for the response, at most `seconds`. Once the child has crashed or timed out
+    /// it is gone, and every answer is that.
     Answer ask(const nlohmann::json& request, double seconds);
 
     /// Ends the child, whatever it does; from any thread.

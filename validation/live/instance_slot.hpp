@@ -117,7 +117,7 @@ class InstanceSlot {
     std::optional<nlohmann::json> drag_;
     std::vector<std::promise<StateReply>> nows_;
 
-    std::unique_ptr<InstanceProcess> process_;  ///< made and asked by the thread alone
+    std::unique_ptr<InstanceProcess> process_;  ///< made and called by the thread alone
     std::thread thread_;
 };
 

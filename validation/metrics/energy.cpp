@@ -12,7 +12,7 @@ namespace {
 
 using namespace scenario;
 
-constexpr int kSamples = 16;         // times at which the exact solution is asked whether it keeps its energy
+constexpr int kSamples = 16;         // times at which the exact solution is tested for conservation of energy
 constexpr double kConserved = 1e-9;  // relative to the scale: rounding of the references is below 1e-11
 
 /// States of all bodies of the exact solution; empty unless complete for every dynamic one.

@@ -15,7 +15,7 @@ namespace {
 
 using namespace scenario;
 
-constexpr int kRestSamples = 8;  // times at which the exact solution is asked whether it moves
+constexpr int kRestSamples = 8;  // times at which the exact solution is tested for motion
 
 bool restsExactly(const MetricInput& input, int body) {
     const PartialState start = input.reference->exact(body, 0.0);

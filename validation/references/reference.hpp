@@ -48,8 +48,8 @@ struct PartialState {
     std::optional<scenario::Vec3> angularVelocity;  ///< world [rad/s]
 };
 
-/// A named number that the exact solution determines and a trajectory can be asked for: a stopping distance,
-/// the time of the second bounce, a velocity after an impact.
+/// A named number that the exact solution determines and that can be measured in a trajectory: a stopping
+/// distance, the time of the second bounce, a velocity after an impact.
 struct Quantity {
     std::string name;  ///< snake_case, unique within the reference
     std::string unit;
@@ -109,7 +109,7 @@ const ReferenceEntry* findReference(const std::string& name);
 /// The scenario's reference, or null when it has none. Throws AssumptionViolated where it refuses (above);
 /// std::invalid_argument for an unknown reference, unknown or missing parameters, or bodies that do not
 /// exist. The scenario must be one that the loader or adapter::checkScenarioInput accepts. The reference
-/// refers to the scenario, which must outlive it; asking it is not safe from two threads at once.
+/// refers to the scenario, which must outlive it; evaluating it is not safe from two threads at once.
 std::unique_ptr<Reference> makeReference(const scenario::Scenario& scenario);
 
 }  // namespace rigor::validation

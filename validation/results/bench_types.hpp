@@ -48,7 +48,7 @@ struct BenchRepetition {
                                         ///< world
     std::optional<double>
         allocations;  ///< calls of the system's allocator in an operation, mean; the look alone
-    std::optional<double> allocatedBytes;  ///< asked for by these calls [B], mean
+    std::optional<double> allocatedBytes;  ///< requested by these calls [B], mean
     double processSeconds = 0.0;           ///< wall time of the whole process
     double load = -1.0;                    ///< load of the machine (mean of the last minute) before it; -1
                                            ///< unknown
@@ -64,7 +64,7 @@ struct BenchSummary {
     double wall = 0.0, cpu = 0.0;  ///< medians [s]
     std::optional<double> low,
         high;                     ///< 95 % interval of the median of `clock` [s]; none below six repetitions
-    bool converged = false;       ///< the interval is as narrow as was asked for
+    bool converged = false;       ///< the interval is as narrow as requested
     bool valid = false;           ///< completed, and all quality within bounds
     std::string reason;           ///< reason why not
     std::string base;             ///< id of the case that it is compared with, "" where there is none
@@ -77,7 +77,7 @@ struct BenchCase {
     std::int64_t position = 0;  ///< place in the plan
     std::string part;           ///< "scene", or an isolated part: "broad_phase", ...
     std::string name;           ///< name of the timed work: the scenario, "box-box face", ...
-    std::string engine;         ///< spec with all that was asked for
+    std::string engine;         ///< spec with all requested options
     std::string sizeUnit;       ///< unit of `size`: "bodies", "boxes"; "" if there is no size
     double size = 0.0;
     std::int64_t threads = 1;

@@ -16,9 +16,9 @@ inline constexpr const char* kInHouseEngine = "rigor";
 /// The worst grade that the numbers on record have; None where none of them has a scale.
 Grade recordedGrade(const CaseRow& row);
 
-/// Crashed, timed out, gave no finite numbers, was not what was asked for, missed a bound that its scenario
-/// sets; the in-house engine: worse than on record, or off by a known deviation; another engine: it does not
-/// end as on record any more, or its grade fell.
+/// Crashed, timed out, gave no finite numbers, was not as requested, missed a bound that its scenario sets;
+/// the in-house engine: worse than on record, or off by a known deviation; another engine: it does not end as
+/// on record any more, or its grade fell.
 bool isRed(const CaseRow& row);
 
 }  // namespace rigor::results

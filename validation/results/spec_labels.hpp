@@ -10,8 +10,8 @@
 
 namespace rigor::results {
 
-/// Presets that every engine has (adapters/interface/presets.hpp): as it ships, and as near as it comes to what
-/// is asked of all alike. Any other preset is an engine's own.
+/// Presets that every engine has (adapters/interface/presets.hpp): as it ships, and as near as it comes to
+/// the settings common to all engines. Any other preset is an engine's own.
 inline constexpr const char* kDefaultPreset = "default";
 inline constexpr const char* kMatchedPreset = "matched";
 

@@ -109,12 +109,12 @@ struct ReadBackRow {
     bool ok = true;
 };
 
-/// Contact audit: one collision engine asked about the sampled poses of this case.
+/// Contact audit: one collision engine queried at the sampled poses of this case.
 struct AuditRow {
     std::string auditor;           ///< engine spec, or "oracle"
     std::string outcome;           ///< "completed", "crashed", "timeout", "unsupported"
-    std::int64_t frames = 0;       ///< frames asked about
-    std::int64_t queries = 0;      ///< shape pairs asked
+    std::int64_t frames = 0;       ///< frames queried
+    std::int64_t queries = 0;      ///< shape pairs queried
     std::int64_t overlapping = 0;  ///< answered as overlapping
     std::int64_t missed = 0;       ///< the oracle overlaps deeper than the tolerance, the auditor says apart
     std::int64_t spurious = 0;     ///< the reverse

@@ -72,7 +72,7 @@ scenario::Scenario scenarioOf(const json& request) {
         .scenario;
 }
 
-/// Puts the curve of normal errors beside the other curves of a case, which had no oracle to ask.
+/// Puts the curve of normal errors beside the other curves of a case, which had no oracle.
 void recordNormalErrors(const AuditCase& found, const std::filesystem::path& trajectory) {
     const auto errors = normalErrors(found);
     if (errors.empty()) return;

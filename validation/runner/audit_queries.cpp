@@ -19,7 +19,7 @@ using scenario::Vec3;
 
 constexpr std::size_t kFrames = 20;
 constexpr std::size_t kMostQueries = 400;  ///< most queries per case
-constexpr double kNearby = 0.02;           ///< bounding spheres closer than this are asked about [m]
+constexpr double kNearby = 0.02;           ///< bounding spheres closer than this are queried [m]
 
 /// Smallest sphere we know around a shape, shape frame; infinite radius for a half-space.
 struct Ball {

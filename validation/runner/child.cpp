@@ -87,7 +87,7 @@ std::vector<results::MetricRow> piecesOf(const scenario::Scenario& s, const adap
         s, dt, every, [&](double step) { return engine->dynamics()->build(s, step, settings); }, reference);
 }
 
-/// The reference has given all that it is asked for: its time and its mark end.
+/// The reference has been evaluated completely: its time and its mark end.
 void endReference(const json& request) {
     setAlarm(0.0);
     std::error_code ignored;

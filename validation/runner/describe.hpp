@@ -36,8 +36,8 @@ void checkSettings(const adapter::EngineSpec& spec, const EngineDescription& des
 /// not have. An engine that can not be described is left to its cases, which report what became of it.
 void checkSpecs(const std::vector<adapter::EngineSpec>& specs, const std::filesystem::path& binary);
 
-/// The same of every spec of a plan, with what scenarios ask of engines; to be called before anything is run
-/// or written.
+/// The same of every spec of a plan, with the settings that scenarios give engines; to be called before
+/// anything is run or written.
 void checkPlan(const std::vector<CasePlan>& plan, const std::filesystem::path& binary);
 
 /// A folder for requests and answers that goes away with its owner.

@@ -22,7 +22,7 @@ using ReferenceMaker = std::function<std::unique_ptr<Reference>(const scenario::
 
 enum class ReferenceOutcome {
     None,         ///< the scenario names none
-    Holds,        ///< it was made, and asked for its last state and its quantities
+    Holds,        ///< it was made, and its last state and its quantities were evaluated
     Assumption,   ///< the values break one of its assumptions
     Invalid,      ///< unknown, or its parameters are wrong
     Timeout,      ///< it did not finish within the limit

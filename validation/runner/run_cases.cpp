@@ -242,7 +242,7 @@ class RunInProgress {
         return {options_.referenceLimits.seconds + 0.5 * c.scenario.timeLimit, options_.memoryLimitMiB};
     }
 
-    /// A file that a case's child makes when the engine is done and the reference is about to be asked.
+    /// A file that a case's child makes when the engine is done and the evaluation of the reference begins.
     fs::path simulatedMark(const std::string& name) const { return scratch_.path() / (name + ".simulated"); }
 
     /// The engine was done, and the process ended over the reference.

@@ -101,7 +101,7 @@ struct LiveOptions {
         onStep;  ///< called after each step; may be empty
     /// Called before each onStep with the world, for data that only the engine has; may be empty.
     std::function<void(const adapter::World&)> onWorld;
-    /// Called when the engine is done and the reference is about to be made and asked; may be empty.
+    /// Called when the engine is done and the reference is about to be made and evaluated; may be empty.
     std::function<void()> onSimulated;
     /// Reason, found before, why the reference is not made. Empty: it is made.
     std::optional<ReferenceCheck> withoutReference;

@@ -19,7 +19,7 @@ class DerivedRunPlanner {
 
     /// Adds a case unless it is planned already.
     void add(const CasePlan& one);
-    /// Adds what the part asks for beside `own`, the row's case.
+    /// Adds the derived runs that the part requests beside `own`, the row's case.
     void addTo(StudyRow& row, const scenario::StudyPart& part, const CasePlan& own);
 
   private:

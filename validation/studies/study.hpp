@@ -52,8 +52,8 @@ using ScenarioLoader = std::function<scenario::LoadedScenario(const std::string&
 /// Keys of the spec of an engine.
 using OptionLookup = std::function<std::vector<adapter::Option>(const std::string& engine)>;
 
-/// Lays out the grid. A spec without a preset runs in the preset `default`. `options` is asked which engines
-/// have threads, where the study has the symmetry `threads`. Throws LoadError and BadInput.
+/// Lays out the grid. A spec without a preset runs in the preset `default`. `options` gives the engines that
+/// have threads, if the study has the symmetry `threads`. Throws LoadError and BadInput.
 StudyPlan planStudy(const scenario::Study& study, const ScenarioLoader& load,
                     const OptionLookup& options = {});
 

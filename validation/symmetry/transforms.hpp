@@ -14,7 +14,7 @@ namespace rigor::validation {
 #include "validation/symmetry/symmetries.def"
 #undef SYMMETRY
 
-/// The same physics under no name of its own: without reference, bounds, deviations, asked metrics.
+/// The same physics under no name of its own: without reference, bounds, deviations, requested metrics.
 scenario::Scenario bare(const scenario::Scenario& scenario);
 
 /// The trajectory with every state and contact mapped; contacts keep their bodies.

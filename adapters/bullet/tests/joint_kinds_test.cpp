@@ -340,7 +340,7 @@ TEST(BulletConeTwist, SwingStopsAtItsConeInAnyDirection) {
         }
 }
 
-/// 9.9 N across the axes of the joint: 7 N along each. Bullet's threshold asks each axis by itself.
+/// 9.9 N across the axes of the joint: 7 N along each. Bullet's threshold tests each axis by itself.
 TEST(BulletBreaking, TheForceIsAVectorInMatched) {
     Scenario s = scene();
     s.gravity = {-7, -7, 0};

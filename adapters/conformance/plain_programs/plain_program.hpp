@@ -56,7 +56,7 @@ inline Trajectory adapterRun(const std::string& specText, const Scenario& scene,
     return trajectory;
 }
 
-/// Largest differences that are allowed; zero asks for equal bits. Orientations are compared by components,
+/// Largest differences that are allowed; zero requires equal bits. Orientations are compared by components,
 /// up to the quaternion's sign: libraries that keep matrices give them with a rounding of their own.
 struct Bounds {
     double position = 0.0;         ///< [m]

@@ -17,7 +17,7 @@ namespace {
 
 using test::Browser;
 
-/// Says what it was asked.
+/// Returns the request.
 class Echo final : public Site {
   public:
     Reply answer(const Request& request) override {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Uneven ground as a triangle mesh, a height field or a chain, and its height by itself: what the engine
-// makes of the same heights is not asked.
+// Uneven ground as a triangle mesh, a height field or a chain, and its height by itself: the engine's own
+// surface of the same heights is not used.
 #pragma once
 
 #include <random>

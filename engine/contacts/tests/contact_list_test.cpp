@@ -49,7 +49,7 @@ TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
     for (std::uint32_t k = 0; k < names.size(); ++k) EXPECT_EQ(list.order()[k], k);
 }
 
-/// Pairs that are known are not asked again whether they may collide; a joint that comes in between is seen.
+/// Known pairs are not tested again by the collision filter; a joint that comes in between is seen.
 TEST(ContactList, JointBetweenBodiesThatTouchEndsTheirContact) {
     WorldDef<S> def;
     World<S> world(def);

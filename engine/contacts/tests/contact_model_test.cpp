@@ -97,7 +97,7 @@ TEST(ContactModels, AgreeOnOnePointWithoutFriction) {
     }
 }
 
-/// A solver that asks for patches is one that solves them, and the other way round.
+/// A solver that requests patches is one that solves them, and the other way round.
 TEST(ContactModels, AreWhatTheSolversTake) {
     for (const auto& entry : solverTable<S>()) {
         const std::unique_ptr<Solver<S>> solver = entry.make();

@@ -15,7 +15,7 @@ namespace {
 
 using S = Space2d;
 
-/// Dynamic discs that walk at random in a square, and a way to ask for their pairs.
+/// Dynamic discs that walk at random in a square, and a function that finds their pairs.
 struct Crowd {
     BodyArrays<S> bodies;
     ShapeSet<S> shapes;

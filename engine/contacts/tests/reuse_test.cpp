@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Answers of the narrow phase that are kept (contacts/contact_cache.hpp): against asking again, and through
+// Answers of the narrow phase that are kept (contacts/contact_cache.hpp): against a new query, and through
 // everything that happens to a world.
 #include <gtest/gtest.h>
 
@@ -181,7 +181,7 @@ TYPED_TEST(Reuse, NothingFoundStaysTrue) {
 }
 
 /// A box that comes slowly towards an edge of the other, face first, while their boxes overlap: it is found
-/// as early as by asking in every step, which far away is not done.
+/// as early as by a query in every step, which far away is not done.
 TYPED_TEST(Reuse, WhatIsFarApartIsNotAskedAboutUntilItMayBeNear) {
     using S = TypeParam;
     using R = typename S::Real;
@@ -245,8 +245,8 @@ TYPED_TEST(Reuse, MovingFurtherAsksAgain) {
     EXPECT_EQ(pair.find().size(), 1u);
 }
 
-/// Small shapes are asked about again after a fiftieth of their radius, however large the distance of reuse:
-/// so much at most has their normal turned, and twice that is their depth wrong.
+/// Small shapes are queried again after a fiftieth of their radius, however large the cache tolerance: so
+/// much at most has their normal turned, and twice that is their depth wrong.
 TYPED_TEST(Reuse, SmallShapesAreAskedAboutSooner) {
     using S = TypeParam;
     using R = typename S::Real;

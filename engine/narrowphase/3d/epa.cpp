@@ -6,7 +6,7 @@
 //   depth = min over unit n of h(n),   h(n) = max over w in D of n . w.
 // A polytope of support points grows inside D: its face of least offset n . w_0 gets the support point of D
 // along n, the faces that see the point give way to a cone from their horizon.
-//   least offset of all faces <= depth <= least h(n) of all directions asked
+//   least offset of all faces <= depth <= least h(n) of all directions queried
 // Source: [Bergen2003, sec. 4.3.8]; growth as in quickhull [Barber1996].
 //
 // Deviations:
@@ -17,7 +17,7 @@
 //    below the true depth.
 //  - A face that the new point lies on (within rounding) counts as seen, so that facets of D with many
 //    vertices leave no slivers. A face that is a sliver all the same keeps its place in the surface, but is
-//    neither grown nor asked for its offset.
+//    neither grown nor is its offset used.
 //  - The final normal is computed again from the widest triangle of D's points in the facet.
 // Cost: about as many support points as D has vertices near the facet; O(faces) each. Curved sides converge
 // quadratically in the number of points per direction; kMaxVertices ends it and `converged` reports it.

@@ -4,7 +4,7 @@
 // Portal discovery and refinement in 3D [Snethen2008]. With u_i = v_i - from, the ray along d passes
 // through the triangle v0 v1 v2 of support points iff
 //   det(u_i, u_i+1, d) >= 0  for all three edges.
-// Discovery turns a plane about the ray until a third support point closes the portal. Refinement asks for
+// Discovery turns a plane about the ray until a third support point closes the portal. Refinement computes
 // the support point along the portal's normal and keeps that third of the triangle through which the ray
 // passes, until the point is no further out than the portal itself.
 #include "engine/narrowphase/mpr.hpp"

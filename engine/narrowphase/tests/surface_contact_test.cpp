@@ -173,7 +173,7 @@ TYPED_TEST(Surface, SidesAreReported) {
     }
 }
 
-/// Carried through the world, and asked the other way round.
+/// Carried through the world, and queried in the other order.
 TYPED_TEST(Surface, RigidMotionAndOrder) {
     using S = TypeParam;
     Random<S> random{std::mt19937(31)};

@@ -268,7 +268,7 @@ TYPED_TEST(Chains, SuperfluousJointsChangeNothing) {
 }
 
 /// Flat, a net has more rows than motions, and while it folds it comes by places where it nearly has: aims at
-/// the end of the step ask there for motion that joints hardly allow.
+/// the end of the step require there a motion that joints hardly allow.
 TYPED_TEST(Chains, FlatNetsNeitherBurstNorGainEnergy) {
     using S = TypeParam;
     for (const int substeps : {4, 8}) {

@@ -80,7 +80,7 @@ TYPED_TEST(Manifolds, TheDeepestPointAloneLetsABoxRock) {
     EXPECT_GT(spread("deepest"), 1e-2);
 }
 
-/// Counts what it is asked and leaves the rest to "sat".
+/// Counts the queries and passes them on to "sat".
 template <class S>
 class Counting final : public NarrowPhase<S> {
   public:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Questions to a world of all kinds of shapes against asking every shape by itself; first touches against
-// known configurations and against the distance just before and after.
+// Queries to a world of all kinds of shapes against queries to every shape alone; first touches against known
+// configurations and against the distance just before and after.
 #include "engine/queries/world_queries.hpp"
 
 #include <gtest/gtest.h>

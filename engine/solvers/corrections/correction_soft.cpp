@@ -3,7 +3,7 @@
 //
 // Soft errors, then relaxation [Catto2024], with any velocity solver: the rows treat overlap and joint drift
 // as damped springs [Catto2011] (soft.hpp); after the bodies have moved, the solver runs again on rigid rows
-// without what the errors asked for, so that the velocity that pushed bodies apart does not stay in them.
+// without the bias of the errors, so that the velocity that pushed bodies apart does not stay in them.
 //     solve   J v + (omega / a) C + gamma lambda = 0
 //     move    x += h v
 //     relax   J v = 0, from the impulses of the first solve

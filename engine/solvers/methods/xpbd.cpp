@@ -187,7 +187,7 @@ class Xpbd final : public Solver<S> {
         }
     }
 
-    /// Normal velocity to what restitution asks for; the bias of a gap that has been closed asks for nothing.
+    /// Normal velocity to that of restitution; the bias of a gap that has been closed has no effect.
     static Real bounce(Row<S>& row, const Block<S>& block, Velocity<S>& a, Velocity<S>& b) {
         const Real error = rowVelocity<S>(row, a, b) + std::min(row.bias, Real(0));
         const Real step = -row.invK * error;

@@ -99,11 +99,11 @@ export const query = (run: string, sql: string): unknown[][] =>
 
 export interface Watched {
   page: Page;
-  faults: string[]; // errors of the console and of the page, and whatever was asked of the network
+  faults: string[]; // errors of the console and of the page, and all network requests
   close: () => Promise<void>;
 }
 
-/** A page that can reach only what it may ask for, and its faults: errors, and what it asked for beside that. */
+/** A page that can reach only allowed addresses, and its faults: errors, and other requests. */
 export async function faultsOf(browser: Browser, options: BrowserContextOptions, mayAsk: (url: string) => boolean) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 1000 }, ...options });
   const faults: string[] = [];

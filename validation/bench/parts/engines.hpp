@@ -23,11 +23,11 @@ struct PartEngine {
     adapter::EngineSpec spec;
     EngineDescription description;
 };
-/// The engines asked for, else every one there is, each in all its precisions where the spec names none;
-/// those that cannot be loaded are left out.
+/// The requested engines, or every one there is, each in all its precisions where the spec names none; those
+/// that cannot be loaded are left out.
 std::vector<PartEngine> partEngines(const BenchRequest& request);
 
-/// The option whose values are an engine's broad phases; empty: it has no choice, or cannot be timed. Asked
+/// The option whose values are an engine's broad phases; empty: it has no choice, or cannot be timed. Called
 /// in a child process: engines are not loaded into this one.
 std::string broadPhaseOption(const adapter::EngineSpec& spec);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Narrow phases by themselves: a thousand pairs of one kind, asked one after the other, each as at its first
-// contact. Shapes are built and poses converted before (adapter::CollisionBatch), contacts stay in the
+// Narrow phases by themselves: a thousand pairs of one kind, queried one after the other, each as at its
+// first contact. Shapes are built and poses converted before (adapter::CollisionBatch), contacts stay in the
 // engine's own form. The cost of the batch itself is that of the engine "interface", which reads the poses
 // and returns no contacts. The depths are those of the exact oracle or the timing does not count.
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kPairs = 1000;
-/// Asked of the oracle in every repetition, in the look of all pairs.
+/// Number of pairs that the oracle judges in every repetition; in round 0 it judges all pairs.
 constexpr std::size_t kJudged = 100;
 /// Bounds of a timing that counts: of the depth, two percent of the 0.05 m that overlapping pairs are moved
 /// in by; wrong answers, one pair in a hundred.

@@ -28,9 +28,9 @@ const std::vector<PairKind>& pairKinds();
 struct PosedPairs {
     std::deque<scenario::Geometry> shapes;  ///< shapes of pair i are at 2 i and 2 i + 1
     std::vector<adapter::CollisionQuery> queries;
-    std::vector<double> depths;  ///< exact, < 0: apart [m]; of the first ones that were asked for
+    std::vector<double> depths;  ///< exact, < 0: apart [m]; of the first ones that were requested
 };
-/// The same for the same request. The oracle is asked about the depth of the first `known` pairs.
+/// The same for the same request. The oracle computes the depth of the first `known` pairs.
 PosedPairs makePosedPairs(const PairKind& kind, std::size_t count, std::size_t known, std::uint64_t seed);
 
 }  // namespace rigor::validation

@@ -32,7 +32,7 @@ void count(std::size_t size) {
 
 extern "C" {
 
-/// Calls and bytes asked for since the process began; validation/bench/allocations.cpp looks it up by this
+/// Calls and bytes allocated since the process began; validation/bench/allocations.cpp looks it up by this
 /// name.
 __attribute__((visibility("default"))) void rigorCountedAllocations(std::uint64_t* callsSoFar,
                                                                     std::uint64_t* bytesSoFar) {

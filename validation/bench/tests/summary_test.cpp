@@ -89,7 +89,7 @@ TEST(Summary, AnInvalidCaseIsNoBase) {
     summarise(bench, {}, "");
     EXPECT_EQ(bench.cases[2].summary.base, "b1");
     EXPECT_NEAR(*bench.cases[2].summary.ratio, 3.0, 0.1);
-    summarise(bench, {}, "a");  // asked for, and no good
+    summarise(bench, {}, "a");  // requested, but not valid
     EXPECT_EQ(bench.cases[2].summary.base, "a1");
     EXPECT_FALSE(bench.cases[2].summary.ratio);
     summarise(bench, {}, "c");

@@ -88,7 +88,8 @@ class BouncingBall : public Reference {
         double time = first_, up = e_ * impact_;
         for (int n = 1; n <= kMaxBounces && time <= duration_ && impact_ > 0.0; ++n) {
             const std::string suffix = "_" + std::to_string(n);
-            // A rebound must show in at least the time it takes to fly up and down: else it is not asked for.
+            // A rebound must show in at least the time it takes to fly up and down: otherwise it is not
+            // required.
             if (time + 0.25 * up / g_ > duration_) break;
             result.push_back({"bounce_time" + suffix,
                               "s",

@@ -52,11 +52,11 @@ struct OdeLimits {
     static OdeLimits neighbourOf(Real tolerance, Real apart, OdeState scale);
 };
 
-/// A solution over [t0, t1] that can be asked at any time: Chebyshev interpolation of degree 15 on panels
-/// halved until the interpolated midpoints agree with the integrated ones to `tolerance` beside
-/// max(scale_i, |y_i|). It is given up where a panel would be shorter than 1e-6 of a smooth part, beyond 4000
-/// panels, and beyond the evaluations of its limits: without a neighbour std::runtime_error is thrown, with
-/// one the solution ends after the last panel in which the two agreed (and throws where there is none).
+/// A solution over [t0, t1] that can be evaluated at any time: Chebyshev interpolation of degree 15 on panels
+/// halved until the interpolated midpoints agree with the integrated ones to `tolerance` beside max(scale_i,
+/// |y_i|). It is given up where a panel would be shorter than 1e-6 of a smooth part, beyond 4000 panels, and
+/// beyond the evaluations of its limits: without a neighbour std::runtime_error is thrown, with one the
+/// solution ends after the last panel in which the two agreed (and throws where there is none).
 class DenseSolution {
   public:
     DenseSolution() = default;

@@ -49,7 +49,7 @@ class PlanarMotion {
         Real torque = 0;                    ///< constant [N m]
         Real friction = 0, restitution = 0;
         Real size = 1;  ///< lengths are small beside this [m]
-        /// Follow the motion to the first impact alone, whose law is not asked; validUntil() is its time.
+        /// Follow the motion to the first impact alone, whose law is not applied; validUntil() is its time.
         bool stopsAtImpact = false;
     };
     struct State {

@@ -60,7 +60,7 @@ class PlanarSlide {
     numerics::Real g_ = 0, kappa_ = 0, w0_ = 0, p_ = 0;
 };
 
-/// Ideal time stepping of PlanarSlide::step, kept so that asking for many steps in order costs one each. It
+/// Ideal time stepping of PlanarSlide::step, kept so that evaluating many steps in order costs one each. It
 /// is not safe to share between threads.
 class SlideSteps {
   public:

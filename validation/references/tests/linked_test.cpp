@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Bodies that springs, rails, hinges and motors link: catalogued values, and as a second method what Newton's
-// and Euler's laws ask of the forces that the links can give.
+// Bodies that springs, rails, hinges and motors link: catalogued values, and as a second method Newton's and
+// Euler's laws with the forces that the links can exert.
 #include <gtest/gtest.h>
 
 #include <cmath>

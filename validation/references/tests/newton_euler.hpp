@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Newton's and Euler's laws as a second method: a reference is asked for velocities around a time, and what
-// it says must be the effect of forces that its joints and contacts can give. No reference's own equation of
-// motion is used.
+// Newton's and Euler's laws as a second method: a reference is evaluated for velocities around a time, and
+// their change must be the effect of forces that its joints and contacts can give. No reference's own
+// equation of motion is used.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // One body on a floor seen from the side: catalogued values of rocking blocks, falling rods, impacts of
-// corners and Painleve's rod; and Newton's and Euler's laws asked for the contact force.
+// corners and Painleve's rod; and Newton's and Euler's laws solved for the contact force.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Bodies that roll and slip in 3D, tripods, a ball on a ball, block and wedge: catalogued values, constants
-// of the motion, and contact forces asked of Newton's and Euler's laws.
+// of the motion, and contact forces by Newton's and Euler's laws.
 #include <gtest/gtest.h>
 
 #include <cmath>

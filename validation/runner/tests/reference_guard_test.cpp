@@ -101,7 +101,7 @@ TEST_F(ReferenceGuard, ACaseRunsWithoutTheReferenceThatHangs) {
     EXPECT_TRUE(lacksReferencesAlone(r));
 }
 
-/// A reference may break down when a metric asks it, after its engine's run.
+/// A reference may break down when a metric evaluates it, after its engine's run.
 TEST_F(ReferenceGuard, ACaseIsRepeatedWithoutTheReferenceThatBreaksWhenAsked) {
     const std::pair<const char*, const char*> faults[] = {{"double_hangs_when_asked", "reference_timeout"},
                                                           {"double_crashes_when_asked", "reference_crashed"}};

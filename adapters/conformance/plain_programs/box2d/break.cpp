@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Break: a ball falls on a beam welded to the world. The manual has joints broken by the program: after each
-// step it asks for the reaction force, and destroys the joint above 40 N.
+// step it reads the reaction force, and destroys the joint above 40 N.
 #include "adapters/conformance/plain_programs/box2d/run.hpp"
 
 namespace rigor::plain {

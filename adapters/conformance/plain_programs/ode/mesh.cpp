@@ -33,7 +33,7 @@ TEST(PlainOde, TriangleMesh) {
     dGeomSetBody(demo.inSpace(dCreateSphere(nullptr, 0.1)), ball);
     const Trajectory plain = demo.run(1.0 / 240, 120);
     EXPECT_GT(travel(plain, 1), 0.3);
-    // The program takes the first 8 points that dCollide finds; the adapter asks for all and keeps the
+    // The program takes the first 8 points that dCollide finds; the adapter requests all and keeps the
     // deepest and the farthest from it. These steps have at most 8.
     EXPECT_TRUE(same(plain, adapterRun("ode:preset=default", scene, 1.0 / 240, 120)));
     dGeomTriMeshDataDestroy(data);

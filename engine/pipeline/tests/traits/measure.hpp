@@ -18,8 +18,8 @@ namespace rigor::engine::test {
 /// Measured properties of a solver beside its traits.
 struct MeasuredSolver {
     SolverTraits traits;       ///< iterations with relaxation; linearJointBaumgarte: any value for "rigid"
-    double contactSpring = 0;  ///< frequency where kAskedContact is asked for [Hz]; 0: rigid
-    double jointSpring = 0;    ///< frequency where kAskedJoint is asked for [Hz]; 0: rigid
+    double contactSpring = 0;  ///< frequency for the setting kAskedContact [Hz]; 0: rigid
+    double jointSpring = 0;    ///< frequency for the setting kAskedJoint [Hz]; 0: rigid
     bool ownsCorrection = false;
     bool countsIterations = false;  ///< traits.iterations could be measured
 };

@@ -11,10 +11,10 @@
 
 namespace rigor::engine::test {
 
-/// The law of a solver that steps by h / substeps, where the world asks for `friction`.
+/// The law of a solver that steps by h / substeps, if the world's setting is `friction`.
 FrictionShape frictionShapeOf(const std::string& solver, const std::string& friction, int substeps);
 
-/// The law that a solver has whatever the world asks for; empty: it obeys.
+/// The law that a solver has for every setting of the world; empty: it obeys.
 std::optional<FrictionShape> ownFriction(const std::string& solver, int substeps);
 
 /// True if a plate on three feet that slides and turns at once is decelerated otherwise than by the friction

@@ -69,7 +69,7 @@ T with(T traits, Change change) {
     return traits;
 }
 
-/// Projected Gauss-Seidel whose springs of contacts are softer than asked for.
+/// Projected Gauss-Seidel whose springs of contacts are softer than the setting.
 template <class S>
 class Softer final : public Solver<S> {
   public:

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The live view: picture, transport, instances, branches, what a step is made of. The server runs the simulation; this
-// page asks for the newest frames and sends the user's requests.
+// page requests the newest frames and sends the user's requests.
 import { el } from '../common/elements.ts';
 import { timeStep } from '../common/format.ts';
 import type { LayerName } from '../replay/layers.ts';

@@ -27,7 +27,7 @@ interface Part {
 /** Bundle of the frames from one on. */
 export type FetchFrames = (from: number) => Promise<ArrayBuffer>;
 
-/** Asks the server that the page came from. */
+/** Requests it from the server that the page came from. */
 export const fetchFrames =
   (id: string): FetchFrames =>
   async (from) => {

@@ -66,7 +66,7 @@ export function collectCurves(cases: Case[], observed: string[], body: string): 
   return [...plots.values()].filter(moves).sort((a, b) => rank(a) - rank(b));
 }
 
-/** The motion, then what is asked about most, then the rest as stored. */
+/** The motion, then the most requested curves, then the rest as stored. */
 function rank(plot: CurvePlot): number {
   if (/^p\d$/.test(plot.key)) return -1;
   const place = first.indexOf(plot.key.split('/')[0] as string);

@@ -215,7 +215,7 @@ export interface Scenario {
 /** Results of a column over some scenarios, each at its finest time step. */
 export interface Ranking {
   scenarios: number; // it could take part in
-  lost: number; // crashed, timed out, not finite, or not what was asked for
+  lost: number; // crashed, timed out, not finite, or not as requested
   grades: number[]; // scenarios of grade A to E
   within: number; // scenarios of grade C or better
   ungraded: number;

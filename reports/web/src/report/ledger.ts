@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Lines of the parity ledger: asked for, given, why.
+// Lines of the parity ledger: requested value, realised value, reason.
 import { el } from '../common/elements.ts';
 import type { LedgerLine, Shown } from './data.ts';
 import { scenarioLink } from './run.ts';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The run of this page, and what is asked of it everywhere: columns, verdicts, colours, links.
+// The run of this page, and the functions on it that are used everywhere: columns, verdicts, colours, links.
 import type { Case, Column, Run, Scenario, Shown, Study } from './data.ts';
 
 function embedded<T>(id: string): T | null {

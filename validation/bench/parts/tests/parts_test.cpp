@@ -101,7 +101,7 @@ TEST(PairCheck, MissedAndExcessPairsAreCounted) {
     EXPECT_EQ(wrong.excess(), 2u);
 }
 
-/// Few boxes: what is asked is whether the pairs are right, of those that are many the bench itself asks.
+/// Few boxes: they are tested for right pairs; the bench itself tests the large ones.
 TEST(BroadPhasePart, EveryChoiceOfEveryEngineFindsAllPairsAndOursNoOthers) {
     BenchRequest r = request({});
     for (const auto& engine : adapter::availableEngines())

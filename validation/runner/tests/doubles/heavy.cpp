@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Builds bodies of twice the mass it was asked for.
+// Builds bodies of twice the given mass.
 #include "validation/runner/tests/doubles/free_flight.hpp"
 
 namespace rigor::doubles {

@@ -29,7 +29,7 @@ struct WrongScheme : RigidWorld {
     using RigidWorld::RigidWorld;
     void movePosition(Moving& m) const override { m.position += stepOf() * m.velocityBefore; }
 };
-/// Steps by 1/64 s whatever was asked for, as often as time allows.
+/// Steps by 1/64 s for every requested time step, as often as time allows.
 struct OwnStep : RigidWorld {
     using RigidWorld::RigidWorld;
     double stepOf() const override { return 1.0 / 64.0; }

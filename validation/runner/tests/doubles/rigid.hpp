@@ -95,7 +95,7 @@ class RigidWorld : public World {
     };
     struct Contact {
         ContactPoint point;
-        double aim = 0.0;  ///< normal velocity that restitution asks for
+        double aim = 0.0;  ///< normal velocity that restitution requires
         double normalImpulse = 0.0;
         Vec3 friction;
     };
@@ -151,7 +151,7 @@ class RigidWorld : public World {
         Vec3 force, torque;
     };
 
-    /// Momenta need the inertia, which a constructor cannot ask a derived class for.
+    /// Momenta need the inertia, which a constructor cannot get from a derived class.
     void start() {
         ++steps_;
         if (started_) return;

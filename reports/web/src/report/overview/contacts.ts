@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Contacts over the whole run: those that the runs acted upon, and those that collision engines answer when asked.
+// Contacts over the whole run: those that the runs acted upon, and the results of collision engines for queries.
 import { type Child, el } from '../../common/elements.ts';
 import { angle, format, full, type Maybe, toNumber } from '../../common/format.ts';
 import type { Audit, Column, InRun, Scenario } from '../data.ts';

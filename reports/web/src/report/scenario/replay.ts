@@ -6,7 +6,7 @@ import { columnOf, engineColour, run } from '../run.ts';
 import { panel } from '../widgets.ts';
 import type { Context } from './context.ts';
 
-/** The replay of this time step; made when it comes into view or when a link asks for a moment. */
+/** The replay of this time step; made when it comes into view or when a link names a moment. */
 export function replay(context: Context): HTMLElement | null {
   const { data, scenario, cases, cursor } = context;
   if (!cases.some((c) => c.trajectoryFile)) return null;
