@@ -99,9 +99,9 @@ std::vector<EngineDescription> describe(const std::vector<adapter::EngineSpec>& 
     return validation::describeEngines(names, ownBinary(), 1);
 }
 
-bool isAsked(const BenchArguments& a, const std::string& part) {
+bool isRequested(const BenchArguments& a, const std::string& part) {
     return std::any_of(a.parts.begin(), a.parts.end(),
-                       [&](const std::string& asked) { return asked == "all" || asked == part; });
+                       [&](const std::string& requested) { return requested == "all" || requested == part; });
 }
 
 /// No further round after so many seconds. The usual cases of the parts are to be done in ten minutes, the
@@ -115,7 +115,7 @@ double budgetOf(const BenchArguments& a) {
 std::vector<BenchWork> planParts(const BenchArguments& a, validation::BenchRequest request) {
     std::vector<BenchWork> work;
     for (const auto& family : validation::benchFamilies()) {
-        if (!isAsked(a, family.name)) continue;
+        if (!isRequested(a, family.name)) continue;
         for (auto& planned : family.plan(request)) work.push_back({std::move(planned), "", {}});
     }
     const auto missing = std::ranges::find_if(a.only, [&](const std::string& name) {
@@ -182,7 +182,7 @@ void checkSameBench(const fs::path& directory, const std::vector<BenchWork>& wor
         if (!planned)
             throw std::invalid_argument(
                 "--resume: '" + directory.string() + "' holds " + validation::benchCaseName(c) +
-                ", which this command does not ask for; it was started by: " + stored.command);
+                ", which this command does not request; it was started by: " + stored.command);
     }
 }
 

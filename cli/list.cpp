@@ -124,8 +124,8 @@ Json choiceJson(const std::string& stage, const std::string& name, bool isDefaul
 }
 
 /// A feature that is requested by the content of a scenario (in C++ of the world), not by a key.
-Json partJson(const char* stage, const std::string& name, const std::string& summary, const char* asked) {
-    return {{"name", name}, {"stage", stage}, {"default", false}, {"summary", summary}, {"asked", asked}};
+Json partJson(const char* stage, const std::string& name, const std::string& summary, const char* requested) {
+    return {{"name", name}, {"stage", stage}, {"default", false}, {"summary", summary}, {"asked", requested}};
 }
 
 void appendParts(const adapter::Capabilities& capabilities, Json& list) {
@@ -137,13 +137,13 @@ void appendParts(const adapter::Capabilities& capabilities, Json& list) {
     for (const auto& joint : engine::jointTable<engine::Space3d>())
         list.push_back(
             partJson("joint", joint.name, joint.summary, "joints[].type of a scenario; World::addJoint"));
-    for (const auto& [name, summary, asked] :
+    for (const auto& [name, summary, requested] :
          {std::tuple{"ray_cast", "first or every shape that a ray meets", "engine/shapes/ray_cast.hpp"},
           std::tuple{"shape_cast", "first shape that a moving shape meets", "engine/queries/shape_cast.hpp"},
           std::tuple{"overlap", "shapes that overlap a shape or box", "engine/queries/world_queries.hpp"},
           std::tuple{"closest_points", "nearest points of a shape and the world's",
                      "engine/queries/world_queries.hpp; rigor collide"}})
-        list.push_back(partJson("query", name, summary, asked));
+        list.push_back(partJson("query", name, summary, requested));
 }
 
 Json algorithms() {

@@ -68,7 +68,7 @@ void checkResumed(const fs::path& directory, const std::vector<validation::CaseP
         if (!planned)
             throw std::invalid_argument(
                 "--resume: '" + directory.string() + "' holds " + row.scenario + " on " + row.spec +
-                ", which this command does not ask for; it was started by: " + stored.command);
+                ", which this command does not request; it was started by: " + stored.command);
     }
 }
 

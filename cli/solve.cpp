@@ -24,9 +24,9 @@ struct SolveArguments {
 int solve(SolveArguments a) {
     a.options.binary = ownBinary();
     std::sort(a.options.iterations.begin(), a.options.iterations.end());
-    const std::vector<adapter::EngineSpec> asked =
+    const std::vector<adapter::EngineSpec> requested =
         a.solvers.empty() ? std::vector<adapter::EngineSpec>{} : adapter::parseSpecList(a.solvers);
-    const auto specs = validation::contactSolverSpecs(asked, a.options.binary);
+    const auto specs = validation::contactSolverSpecs(requested, a.options.binary);
     const std::atomic<bool>& interrupted = catchInterrupts({SIGINT});
     const bool live = !a.quiet && isTerminal(STDERR_FILENO);
     bool complete = false;

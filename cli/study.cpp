@@ -60,7 +60,7 @@ int runStudy(const StudyArguments& a) {
     options.binary = ownBinary();
     options.jobs = a.jobs;
     options.resume = a.resume;
-    options.audit = a.audit || validation::asksForAudit(study);
+    options.audit = a.audit || validation::requestsAudit(study);
     options.suite = study.name;
     options.command = ownCommandLine();
     options.orders = a.orders;

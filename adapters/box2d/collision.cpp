@@ -201,13 +201,14 @@ class Box2dBatch final : public adapter::CollisionBatch {
     }
     std::size_t run() override {
         std::size_t contacts = 0;
-        for (std::size_t i = 0; i < pairs_.size(); ++i) contacts += ask(i);
+        for (std::size_t i = 0; i < pairs_.size(); ++i) contacts += runQuery(i);
         return contacts;
     }
     std::vector<ContactPoint> contacts(std::size_t i) override {
         std::vector<ContactPoint> all;
         const BatchPair& pair = pairs_[i];
-        if (ask(i) > 0) appendManifold(manifolds_[i], pair.first, pair.second, pair.swapped, pair.frame, all);
+        if (runQuery(i) > 0)
+            appendManifold(manifolds_[i], pair.first, pair.second, pair.swapped, pair.frame, all);
         return all;
     }
 
@@ -217,7 +218,7 @@ class Box2dBatch final : public adapter::CollisionBatch {
         Frame frame;
         bool swapped;
     };
-    std::size_t ask(std::size_t i) {
+    std::size_t runQuery(std::size_t i) {
         manifolds_[i].pointCount = 0;
         collideOrdered(pairs_[i].first, pairs_[i].second, manifolds_[i]);
         return static_cast<std::size_t>(manifolds_[i].pointCount);
@@ -270,7 +271,7 @@ Closest closestPoints(const Side& a, const Side& b, const Frame& frame) {
 }
 
 /// Contacts of two sides into `answer`, and their closest points where they are nearer than what it has.
-void ask(const Side& a, const Side& b, const Frame& frame, CollisionAnswer& answer) {
+void runQuery(const Side& a, const Side& b, const Frame& frame, CollisionAnswer& answer) {
     const Closest closest = closestPoints(a, b, frame);
     if (a.capsule || b.capsule) {
         if (!closest.coresApart)
@@ -313,7 +314,7 @@ CollisionAnswer Box2dCollisionEngine::collide(const CollisionQuery& query) const
     CollisionAnswer answer;
     const std::vector<Side> sidesB = sidesOf(query.b, frame);
     for (const Side& a : sidesOf(query.a, frame))
-        for (const Side& b : sidesB) ask(a, b, frame, answer);
+        for (const Side& b : sidesB) runQuery(a, b, frame, answer);
     std::stable_sort(answer.contacts.begin(), answer.contacts.end(),
                      [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
     answer.overlap = !answer.contacts.empty();

@@ -125,18 +125,18 @@ class BulletBatch final : public adapter::CollisionBatch {
         for (const CollisionQuery& query : queries)
             pairs_.push_back(std::make_unique<BatchPair>(query, settings, dispatcher_));
         for (const auto& pair : pairs_) {
-            pair->ask(info_);  // makes the manifold
+            pair->runQuery(info_);  // makes the manifold
             pair->algorithm->getAllContactManifolds(pair->manifolds);
         }
     }
     std::size_t run() override {
         std::size_t contacts = 0;
-        for (const auto& pair : pairs_) contacts += pair->ask(info_);
+        for (const auto& pair : pairs_) contacts += pair->runQuery(info_);
         return contacts;
     }
     std::vector<ContactPoint> contacts(std::size_t i) override {
         std::vector<ContactPoint> all;
-        pairs_[i]->ask(info_);
+        pairs_[i]->runQuery(info_);
         for (int k = 0; k < pairs_[i]->manifolds.size(); ++k)
             append(*pairs_[i]->manifolds[k], pairs_[i]->a.object, all);
         return all;
@@ -155,7 +155,7 @@ class BulletBatch final : public adapter::CollisionBatch {
             algorithm->~btCollisionAlgorithm();
             dispatcher.freeCollisionAlgorithm(algorithm);
         }
-        std::size_t ask(const btDispatcherInfo& info) {
+        std::size_t runQuery(const btDispatcherInfo& info) {
             for (int k = 0; k < manifolds.size(); ++k) manifolds[k]->clearManifold();
             btManifoldResult result(&wrapA, &wrapB);
             algorithm->processCollision(&wrapA, &wrapB, info, &result);

@@ -148,7 +148,7 @@ TEST_P(Collision, PairsAnswerWithTheClosedForm) {
     EXPECT_GT(answered, 0);
 }
 
-TEST_P(Collision, ContactsNeverExceedWhatWasAskedFor) {
+TEST_P(Collision, ContactsNeverExceedTheRequest) {
     const Geometry box = Box{{0.5, 0.5, dimension() == 2 ? 0.0 : 0.5}};
     if (!has("box")) GTEST_SKIP() << "no boxes";
     for (const int most : {1, 2, 8}) {
@@ -179,17 +179,17 @@ TEST_P(Collision, CoincidingBallsDoNotInventADirectionThatIsNoUnitVector) {
 TEST_P(Collision, BadQueriesAreRefused) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const Geometry good = Sphere{0.5}, flatBall = Sphere{0.0}, noHull = ConvexHull{};
-    const auto ask = [&](const Geometry& geometry, const Pose& pose) {
+    const auto runQuery = [&](const Geometry& geometry, const Pose& pose) {
         adapter::CollisionQuery query;
         query.dimension = dimension();
         query.a = {&good, {}};
         query.b = {&geometry, pose};
         return engine().collision()->collide(query);
     };
-    EXPECT_THROW(ask(good, {{nan, 0, 0}, {}}), adapter::BadInput);
-    EXPECT_THROW(ask(good, {{}, {0, 0, 0, 0}}), adapter::BadInput);
-    EXPECT_THROW(ask(flatBall, {}), adapter::BadInput);
-    EXPECT_THROW(ask(noHull, {}), adapter::BadInput);
+    EXPECT_THROW(runQuery(good, {{nan, 0, 0}, {}}), adapter::BadInput);
+    EXPECT_THROW(runQuery(good, {{}, {0, 0, 0, 0}}), adapter::BadInput);
+    EXPECT_THROW(runQuery(flatBall, {}), adapter::BadInput);
+    EXPECT_THROW(runQuery(noHull, {}), adapter::BadInput);
 }
 
 }  // namespace

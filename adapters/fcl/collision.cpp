@@ -72,7 +72,7 @@ bool isPolytope(const Geometry& geometry) {
 /// and not for touching ones. About 40 of 2 million queries around the first touch, with a round shape,
 /// failed an assertion in it, which ends the process; coaxial capsules and coinciding cylinders keep it busy
 /// for ever.
-bool mayAskEpa(const Geometry& a, const Geometry& b, double depth) {
+bool mayCallEpa(const Geometry& a, const Geometry& b, double depth) {
     const bool boxes = is<scenario::Box>(a) && is<scenario::Box>(b);
     return isPolytope(a) && isPolytope(b) && !boxes && depth > kLeastDepth;
 }
@@ -194,11 +194,11 @@ class FclBatch final : public adapter::CollisionBatch {
     }
     std::size_t run() override {
         std::size_t contacts = 0;
-        for (std::size_t i = 0; 2 * i < sides_.size(); ++i) contacts += ask(i);
+        for (std::size_t i = 0; 2 * i < sides_.size(); ++i) contacts += runQuery(i);
         return contacts;
     }
     std::vector<ContactPoint> contacts(std::size_t i) override {
-        ask(i);
+        runQuery(i);
         std::vector<ContactPoint> all;
         for (std::size_t k = 0; k < result_.numContacts(); ++k) {
             const fcl::Contactd& found = result_.getContact(k);
@@ -213,7 +213,7 @@ class FclBatch final : public adapter::CollisionBatch {
     }
 
   private:
-    std::size_t ask(std::size_t i) {
+    std::size_t runQuery(std::size_t i) {
         const FclShape &a = sides_[2 * i], &b = sides_[2 * i + 1];
         result_.clear();
         fcl::collide(a.geometry.get(), a.pose, b.geometry.get(), b.pose, request_, result_);
@@ -252,7 +252,7 @@ CollisionAnswer FclCollisionEngine::collide(const CollisionQuery& query) const {
     answer.overlap = result.isCollision();
     answer.contacts = contactsOf(result, {&solidA, query.a.pose}, {&solidB, query.b.pose});
     const double depth = deepest(result);
-    const bool exactInside = algorithm == "libccd" && mayAskEpa(solidA, solidB, depth);
+    const bool exactInside = algorithm == "libccd" && mayCallEpa(solidA, solidB, depth);
     answerDistance(a, b, unboundedA || unboundedB, exactInside, depth, solver, answer);
     if (query.dimension == 2) {
         bringIntoPlane(answer.contacts);

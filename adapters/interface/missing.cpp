@@ -43,8 +43,8 @@ std::vector<std::string> jointsOf(int dimension) {
 
 std::vector<std::string> notInAdapterYet(const Capabilities& capabilities) {
     std::vector<std::string> missing;
-    const auto look = [&](const std::vector<std::string>& asked, const std::vector<std::string>& known) {
-        for (const std::string& name : asked) {
+    const auto look = [&](const std::vector<std::string>& requested, const std::vector<std::string>& known) {
+        for (const std::string& name : requested) {
             const auto has = [&](const std::vector<std::string>& names) {
                 return std::find(names.begin(), names.end(), name) != names.end();
             };

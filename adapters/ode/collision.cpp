@@ -41,12 +41,12 @@ class OdeBatch final : public adapter::CollisionBatch {
     std::size_t run() override {
         useLibrary();
         std::size_t contacts = 0;
-        for (std::size_t i = 0; 2 * i < sides_.size(); ++i) contacts += ask(i);
+        for (std::size_t i = 0; 2 * i < sides_.size(); ++i) contacts += runQuery(i);
         return contacts;
     }
     std::vector<adapter::ContactPoint> contacts(std::size_t i) override {
         useLibrary();
-        std::vector<adapter::ContactPoint> all(ask(i));
+        std::vector<adapter::ContactPoint> all(runQuery(i));
         for (std::size_t k = 0; k < all.size(); ++k) {
             all[k].bodyB = 1;
             all[k].pointA = all[k].pointB = fromOde(found_[k].pos);
@@ -57,7 +57,7 @@ class OdeBatch final : public adapter::CollisionBatch {
     }
 
   private:
-    std::size_t ask(std::size_t i) {
+    std::size_t runQuery(std::size_t i) {
         return static_cast<std::size_t>(dCollide(sides_[2 * i]->id(), sides_[2 * i + 1]->id(), most_,
                                                  found_.data(), sizeof(dContactGeom)));
     }

@@ -103,11 +103,11 @@ class RigorBatch final : public CollisionBatch {
     }
     std::size_t run() override {
         std::size_t contacts = 0;
-        for (std::size_t i = 0; i < pairs_.size(); ++i) contacts += ask(i);
+        for (std::size_t i = 0; i < pairs_.size(); ++i) contacts += runQuery(i);
         return contacts;
     }
     std::vector<ContactPoint> contacts(std::size_t i) override {
-        ask(i);
+        runQuery(i);
         return contactsOf<S>(manifolds_[i]);
     }
 
@@ -116,7 +116,7 @@ class RigorBatch final : public CollisionBatch {
         engine::Shape<S> a, b;
         engine::Pose<S> Xa, Xb;
     };
-    std::size_t ask(std::size_t i) {
+    std::size_t runQuery(std::size_t i) {
         const PosedPair& p = pairs_[i];
         manifolds_[i].memory = {};
         narrowPhase_->collide(p.a, p.Xa, p.b, p.Xb, typename S::Real(0), manifolds_[i]);

@@ -31,7 +31,7 @@ const char* whyNotSolvable(const engine::SolverTraits& traits) {
         return "solves positions; a contact problem has none";
     if (traits.errors == engine::ErrorHandling::Correction) return nullptr;
     return traits.substeps > 1 ? "moves the bodies between its sub-steps; a contact problem has no positions"
-                               : "softens what position errors ask for; a contact problem has none";
+                               : "softens the bias of position errors; a contact problem has none";
 }
 
 FrictionModel frictionModel(engine::FrictionShape shape, int directions) {

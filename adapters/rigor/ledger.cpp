@@ -69,7 +69,7 @@ class Ledger {
     void addPrecision() {
         const bool single = text("precision") == "f32";
         if (single)
-            add("precision", "f64", "f32", "single precision was asked for");
+            add("precision", "f64", "f32", "single precision was requested");
         else if (solver_.contactsInSingle)
             add("precision", "f64", "f64, contacts in f32",
                 "the solver reckons rows and impulses of contacts in single precision");
@@ -100,8 +100,8 @@ class Ledger {
     }
 
     std::string orOwn(const char* key, int own) const {
-        const int asked = integerSetting(settings_, key);
-        return std::to_string(asked > 0 ? asked : own);
+        const int requested = integerSetting(settings_, key);
+        return std::to_string(requested > 0 ? requested : own);
     }
     bool leavesErrors() const { return solver_.errors == ErrorHandling::Correction; }
 
@@ -120,31 +120,31 @@ class Ledger {
 
     void addFriction() {
         const FrictionShape shape = solver_.friction.value_or(engine::frictionShape(text("friction")));
-        const std::string asked = "coulomb cone, pair coefficient";
+        const std::string requested = "coulomb cone, pair coefficient";
         const bool plane = scenario_.dimension == 2;
         switch (shape) {
             case FrictionShape::None:
-                add("friction_law", asked, "none", "friction is off");
+                add("friction_law", requested, "none", "friction is off");
                 break;
             case FrictionShape::Cone:
                 if (solver_.frictionOfPatches && !plane)
-                    add("friction_law", asked, "cone, of each patch of contacts as a whole",
+                    add("friction_law", requested, "cone, of each patch of contacts as a whole",
                         "the contacts of two shapes have one friction impulse, at the centre of their "
                         "pressure: force and "
                         "torque are approximate where they slide and turn at once");
                 else
-                    add("friction_law", asked, "cone");
+                    add("friction_law", requested, "cone");
                 break;
             case FrictionShape::Box:
-                add("friction_law", asked, "pyramid",
+                add("friction_law", requested, "pyramid",
                     plane ? "" : "up to sqrt(2) times the friction diagonal to the tangents");
                 break;
             case FrictionShape::Polygon:
-                add("friction_law", asked, text("pyramid_directions") + " directions inside the cone",
+                add("friction_law", requested, text("pyramid_directions") + " directions inside the cone",
                     plane ? "" : "friction weaker and askew between the directions");
                 break;
             case FrictionShape::Line:
-                add("friction_law", asked, "along one line",
+                add("friction_law", requested, "along one line",
                     plane ? "" : "opposes the slip that there would be without friction");
                 break;
         }
@@ -152,13 +152,13 @@ class Ledger {
         const bool table = combinesAsScenarios(settings_);
         add("friction_pair", "pair table",
             table ? "pair table" : "pair table; pairs it does not name: " + rules,
-            table ? "" : "another combine rule was asked for");
+            table ? "" : "another combine rule was requested");
     }
 
     void addRestitution() {
         const auto law = made(engine::restitutionTable<S>(), "restitution", text("restitution"));
         if (!law->bounces() || law->solvesImpacts())
-            add("restitution_law", "newton", text("restitution"), "another law of impact was asked for");
+            add("restitution_law", "newton", text("restitution"), "another law of impact was requested");
         const bool late = bounces_ && numberSetting(settings_, "restitution_threshold") > 0;
         add("restitution", "pair coefficient, no threshold",
             "pair coefficient, none below " + text("restitution_threshold") + " m/s",
@@ -202,21 +202,21 @@ class Ledger {
     /// Adds the method that removes position errors, and whether the velocity that it uses stays in the
     /// bodies.
     void addErrors() {
-        const char* asked = "no change of velocity";
+        const char* requested = "no change of velocity";
         const char* stays = "the velocities that remove overlap stay in the bodies";
         if (leavesErrors()) {
             const auto bias = correction_->bias();
             const bool keeps = (bias.baumgarte > 0 || bias.soft) && correction_->relaxIterations() == 0;
-            add("position_correction", asked, text("position_correction") + ", slop " + text("slop") + " m",
-                keeps ? stays : "");
+            add("position_correction", requested,
+                text("position_correction") + ", slop " + text("slop") + " m", keeps ? stays : "");
         } else if (solver_.errors == ErrorHandling::Springs) {
             const bool relaxes = solver_.relaxIterations > 0;
-            add("position_correction", asked,
+            add("position_correction", requested,
                 std::string("the solver's springs, slop ") + text("slop") + " m" +
                     (relaxes ? ", their velocity relaxed out again" : ""),
                 relaxes ? "" : stays);
         } else {
-            add("position_correction", asked, "the solver's own: it solves positions");
+            add("position_correction", requested, "the solver's own: it solves positions");
         }
     }
 
@@ -252,7 +252,7 @@ class Ledger {
         add("velocity_clamp", "none", "none");
         if (made(engine::faultTable<S>(), "fault", text("fault")) != nullptr)
             lines_.push_back({"fault", "none", text("fault"), Realisation::Unsupported,
-                              "a deliberate mistake was asked for"});
+                              "a deliberate mistake was requested"});
         const auto& ccd = engine::continuousCollisionTraits(text("continuous_collision"));
         const std::string realised = ccd.acts ? text("continuous_collision") : "off";
         add("continuous_collision", realised, realised,

@@ -115,33 +115,34 @@ void scaleTimes(const fs::path& run, double factor) {
 }
 
 TEST_F(BenchCommand, OnlySlowDownsBeyondChanceAndThresholdMakeItRed) {
-    const std::string asked = "--engines double_free_flight:pause_us=1000 --least 8 --most 8 --clock wall -q";
-    ASSERT_EQ(bench(asked + out("before")).code, 0);
+    const std::string requested =
+        "--engines double_free_flight:pause_us=1000 --least 8 --most 8 --clock wall -q";
+    ASSERT_EQ(bench(requested + out("before")).code, 0);
     scaleTimes(folder_ / "before", 0.01);  // far beyond what load does to a sleep
     const std::string against = " --baseline " + (folder_ / "before").string();
-    const auto slower = bench(asked + out("after") + against);
+    const auto slower = bench(requested + out("after") + against);
     EXPECT_EQ(slower.code, 1) << slower.out;
     EXPECT_THAT(slower.out, HasSubstr("slower"));
     EXPECT_THAT(slower.out, HasSubstr("p = "));
     EXPECT_TRUE(fs::exists(folder_ / "after/tables/bench_changes.csv"));
-    const auto allowed = bench(asked + out("after") + against + " --resume --threshold 900");
+    const auto allowed = bench(requested + out("after") + against + " --resume --threshold 900");
     EXPECT_EQ(allowed.code, 0) << allowed.out;
     scaleTimes(folder_ / "before", 10000.0);
-    const auto faster = bench(asked + out("after") + against + " --resume");
+    const auto faster = bench(requested + out("after") + against + " --resume");
     EXPECT_EQ(faster.code, 0) << faster.out;
     EXPECT_THAT(faster.out, HasSubstr("faster"));
 }
 
 TEST_F(BenchCommand, AFinishedRunIsGoneOnWithForFree) {
-    const std::string asked = "--engines double_free_flight --least 2 --most 2 -q" + out("run");
-    ASSERT_EQ(bench(asked).code, 0);
-    EXPECT_EQ(bench(asked).code, 2) << "the folder holds a run already";
-    const auto again = bench(asked + " --resume --json", false);
+    const std::string requested = "--engines double_free_flight --least 2 --most 2 -q" + out("run");
+    ASSERT_EQ(bench(requested).code, 0);
+    EXPECT_EQ(bench(requested).code, 2) << "the folder holds a run already";
+    const auto again = bench(requested + " --resume --json", false);
     ASSERT_EQ(again.code, 0);
     EXPECT_EQ(json::parse(again.out).at("cases").at(0).at("repetitions").size(), 3u);
     const auto other = bench("--engines double_nan --least 2 --most 2 -q --resume" + out("run"));
     EXPECT_EQ(other.code, 2);
-    EXPECT_THAT(other.out, HasSubstr("does not ask for"));
+    EXPECT_THAT(other.out, HasSubstr("does not request"));
 }
 
 TEST_F(BenchCommand, WhoDiesMakesItRed) {

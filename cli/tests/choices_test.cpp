@@ -97,7 +97,7 @@ TEST(Choices, EveryOneRunsFromAStudyFile) {
 }
 
 /// A scenario names a choice itself; the command line has the last word.
-TEST(Choices, AScenarioFileAsksForThem) {
+TEST(Choices, AScenarioFileNamesThem) {
     const auto write = [](const json& engines) {
         json scenario = json::parse(R"({"rigor": 1, "name": "mine", "title": "mine", "dimension": 3,
             "gravity": [0, -9.81, 0], "duration": 0.5, "dt": [0.01], "materials": {"stuff": {"friction": 0.5}},

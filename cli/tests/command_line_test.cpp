@@ -455,7 +455,7 @@ TEST(CommandLine, RunTellsOfLibrariesThatFail) {
     }
 }
 
-TEST(CommandLine, ResumeKnowsWhatWasAskedFor) {
+TEST(CommandLine, ResumeKnowsItsRequest) {
     const auto run = (std::filesystem::path(testing::TempDir()) / "resumed-run").string();
     std::filesystem::remove_all(run);
     ASSERT_EQ(rigor("validate elastic_collision --engines rigor -q --out " + run).code, 0);

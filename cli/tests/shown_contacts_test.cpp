@@ -117,7 +117,7 @@ TEST_F(ShownContacts, AreThoseThatTheAuditMeasured) {
         ASSERT_NE(row, run_.cases.end());
         SCOPED_TRACE(row->spec);
         const auto shown = report::replay_reader::shownContacts(bundle, c);
-        const auto asked = validation::findQueries(scenario_, row->id, fileOf(*row));
+        const auto requested = validation::findQueries(scenario_, row->id, fileOf(*row));
         const results::AuditRow& audit = row->audit.front();
         // The frame that the link of the worst normal opens.
         const auto at = audit.worst.find(", step ");
@@ -125,7 +125,7 @@ TEST_F(ShownContacts, AreThoseThatTheAuditMeasured) {
         const long linkedStep = std::stol(audit.worst.substr(at + 7));
         std::size_t compared = 0;
         double worst = -1.0, linked = -1.0;
-        for (const AuditQuery& q : asked.queries) {
+        for (const AuditQuery& q : requested.queries) {
             if (!isMeasured(q)) continue;
             SCOPED_TRACE("step " + std::to_string(q.step));
             const double measured = validation::nearestAngle(deepestOf(q).normal, q.normals);

@@ -86,7 +86,7 @@ Decision AuthGuard::judge(const Credentials& credentials) {
     if (!hasCookie(credentials.cookie)) return refuse(403, "open the link that `rigor view` has printed");
     if (!credentials.fetchSite.empty() && credentials.fetchSite != "same-origin" &&
         credentials.fetchSite != "none")
-        return refuse(403, "asked for by another site");
+        return refuse(403, "requested by another site");
     if (reads) return {Decision::Kind::Allow, 200, "", ""};
     if (lower(credentials.origin) != "http://" + lower(credentials.host))
         return refuse(403, "sent by another site");

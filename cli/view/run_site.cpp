@@ -154,8 +154,8 @@ Reply RunSite::trajectory(const std::string& id, const Request& request) {
     const std::size_t frames = t->times.size(), bodies = t->bodies.size();
     const std::size_t most = std::max<std::size_t>(1, kMostNumbers / std::max<std::size_t>(1, 13 * bodies));
     const auto from = std::min(frames, static_cast<std::size_t>(request.number("from", 0, 0, 1e15)));
-    const auto asked = static_cast<std::size_t>(request.number("count", 1e15, 1, 1e15));
-    const std::size_t count = std::min({asked, most, frames - from});
+    const auto requested = static_cast<std::size_t>(request.number("count", 1e15, 1, 1e15));
+    const std::size_t count = std::min({requested, most, frames - from});
     ArrayBundle bundle;
     bundle.add("time", std::span(t->times).subspan(from, count));
     const auto add = [&](const char* name, Channel BodyChannels::*channel, std::size_t columns) {

@@ -75,12 +75,12 @@ struct Server::Impl {
         if (decision.kind == Decision::Kind::Refuse)
             reply = problem(decision.status, decision.reason);
         else
-            reply = asked(requestOf(request));
+            reply = requested(requestOf(request));
         response.status = reply.status;
         response.set_content(std::move(reply.body), reply.type.c_str());
     }
 
-    Reply asked(const Request& request) {
+    Reply requested(const Request& request) {
         try {
             return site.answer(request);
         } catch (const std::invalid_argument& error) {

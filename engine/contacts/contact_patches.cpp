@@ -173,7 +173,7 @@ void PatchContacts<S>::beginSubstep(ContactList<S>&, BodyArrays<S>& bodies, cons
 template <class S>
 void PatchContacts<S>::solve(Solver<S>& solver, const SolverInput<S>& input, const Tasks& tasks) {
     auto* const patchSolver = dynamic_cast<PatchSolver<S>*>(&solver);
-    RIGOR_CHECK(patchSolver != nullptr, "the traits of a solver ask for patches that it cannot solve");
+    RIGOR_CHECK(patchSolver != nullptr, "the traits of a solver declare patches that it cannot solve");
     patchSolver->solvePatches(input, patches_, pass_, tasks);
 }
 

@@ -44,8 +44,8 @@ GjkResult<S> gjk(const Minkowski<S>& D, const typename S::Vec& start) {
     GjkResult<S> best = r;
     R least = std::numeric_limits<R>::max();  // gap between the bounds
     int idle = 0;
-    int& asked = best.iterations;
-    for (asked = 1; asked < kMostIterations && idle < kIdleSteps; ++asked) {
+    int& queries = best.iterations;
+    for (queries = 1; queries < kMostIterations && idle < kIdleSteps; ++queries) {
         const R length = r.v.norm();
         best.overlap = length <= kRounding<R> * size;
         if (best.overlap) break;

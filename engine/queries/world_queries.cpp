@@ -83,12 +83,12 @@ WorldQueries<S>::WorldQueries(const World<S>& world) {
 template <class S>
 template <class Enter, class Visit>
 void WorldQueries<S>::visit(Enter enter, const Filter& filter, Visit use) const {
-    const auto ask = [&](std::uint32_t i) {
+    const auto test = [&](std::uint32_t i) {
         if (!filter || filter(entries_[i].body)) use(i);
     };
     for (const std::uint32_t i : outside_)
-        if (enter(boxes_[i])) ask(i);
-    tree_.walk(enter, [&](std::uint32_t leaf) { ask(inTree_[leaf]); });
+        if (enter(boxes_[i])) test(i);
+    tree_.walk(enter, [&](std::uint32_t leaf) { test(inTree_[leaf]); });
 }
 
 template <class S>

@@ -128,7 +128,7 @@ std::string refusalSection(const ViewModel& view) {
                 " | " + refusalText(refusal) + " | " + markdownCell(why) + " |\n";
     }
     return "\n### Refused: " + detailOf(view.totals(), Shown::Unsupported) +
-           "\n\n| engine | asked for | cases | which is | why |\n|---|---|---:|---|---|\n" + rows;
+           "\n\n| engine | requested | cases | which is | why |\n|---|---|---:|---|---|\n" + rows;
 }
 
 std::string times(double ratio) {

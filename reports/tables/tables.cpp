@@ -315,7 +315,7 @@ void appendAudit(std::vector<TableCell>& cells, const results::AuditRow& a) {
 
 std::vector<Table> audit(const ViewModel& view) {
     Table table{"audit",
-                "Contact audit: collision engines asked about the poses of all runs of a scenario, greatest "
+                "Contact audit: collision engines queried at the poses of all runs of a scenario, greatest "
                 "errors against the exact oracle",
                 {{"scenario"}, {"auditor"}, {"outcome"}},
                 {}};
@@ -348,7 +348,7 @@ std::vector<Table> contactsOfRuns(const ViewModel& view) {
 
 std::vector<Table> ledger(const ViewModel& view) {
     Table table{"ledger",
-                "Parity ledger: what was asked for, what the engine really does, and why they differ",
+                "Parity ledger: the requested value, what the engine really does, and why they differ",
                 {{"engine"},
                  {"preset"},
                  {"topic"},

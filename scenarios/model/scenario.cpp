@@ -77,12 +77,12 @@ std::vector<std::string> Joint::features() const {
         motor = motor || axis.hasMotor();
         spring = spring || axis.hasSpring();
     }
-    std::vector<std::string> asked;
-    if (limit) asked.push_back("limit");
-    if (motor) asked.push_back("motor");
-    if (spring) asked.push_back("spring");
-    if (breakForce < 1e299 || breakTorque < 1e299) asked.push_back("break");
-    return asked;
+    std::vector<std::string> requested;
+    if (limit) requested.push_back("limit");
+    if (motor) requested.push_back("motor");
+    if (spring) requested.push_back("spring");
+    if (breakForce < 1e299 || breakTorque < 1e299) requested.push_back("break");
+    return requested;
 }
 
 PairCoefficients pairCoefficients(const Scenario& scenario, int materialA, int materialB) {

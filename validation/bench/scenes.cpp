@@ -83,11 +83,11 @@ std::vector<BenchWork> planScenes(const SceneRequest& request,
     std::vector<BenchWork> work;
     for (const SceneRequest::Scene& scene : request.scenes) {
         const double dt = request.dt > 0.0 ? request.dt : scene.scenario.timeSteps.front();
-        for (const EngineSpec& asked : request.specs) {
+        for (const EngineSpec& requested : request.specs) {
             const auto engine = std::find_if(engines.begin(), engines.end(),
-                                             [&](const auto& d) { return d.info.name == asked.engine; });
+                                             [&](const auto& d) { return d.info.name == requested.engine; });
             if (engine == engines.end() || !couldRun(*engine, scene.scenario)) continue;
-            EngineSpec spec = withScenarioSettings(asked, scene.text);
+            EngineSpec spec = withScenarioSettings(requested, scene.text);
             spec.options.emplace("preset", request.preset);
             if (engine->problem.empty()) checkSettings(spec, *engine);
             for (const auto& threaded : threadedSpecs(spec, request.preset, request.threads, *engine)) {

@@ -62,8 +62,8 @@ CollisionAnswer answerBy(const adapter::CollisionEngine& engine, const adapter::
     return engine.collide(by);
 }
 
-CollideAnswer ask(const adapter::CollisionEngine& engine, const adapter::Settings& settings,
-                  const scenario::CollisionCase& c) {
+CollideAnswer runQuery(const adapter::CollisionEngine& engine, const adapter::Settings& settings,
+                       const scenario::CollisionCase& c) {
     adapter::CollisionQuery query;
     query.a = {&c.a.geometry, c.a.pose};
     query.b = {&c.b.geometry, c.b.pose};
@@ -152,7 +152,7 @@ int collideChild(const std::filesystem::path& requestFile) {
     for (std::size_t i = first; i < last; ++i) {
         const scenario::CollisionCase c = scenario::readCollisionCase(questions->at(i).get<std::string>());
         setAlarm(limit);
-        const CollideAnswer answer = ask(*engine->collision(), settings, c);
+        const CollideAnswer answer = runQuery(*engine->collision(), settings, c);
         setAlarm(0.0);
         out.add(answerToJson(answer));
     }

@@ -78,7 +78,7 @@ struct CollideAnswer {
 };
 
 struct CollideCase {
-    scenario::CollisionCase asked;
+    scenario::CollisionCase query;
     std::string file;
     CollideTruth truth;
     std::vector<CollideAnswer> answers;  ///< results by spec
@@ -86,7 +86,7 @@ struct CollideCase {
 
 struct CollideSummary {
     std::string spec;
-    int asked = 0, answered = 0, unsupported = 0, undecided = 0,
+    int queried = 0, answered = 0, unsupported = 0, undecided = 0,
         failed = 0;                       ///< failed: error, crash, timeout
     int missed = 0, spurious = 0;         ///< wrong overlap verdicts, by kind
     int wrongDepth = 0, wrongNormal = 0;  ///< cases; a case counts at the first thing that is wrong
@@ -101,7 +101,7 @@ struct CollideSummary {
 /// The cases of one kind (first tag) and one spec.
 struct CollideKind {
     std::string kind;
-    int asked = 0;
+    int queried = 0;
     std::vector<int> answered, wrong;  ///< numbers by spec; wrong: every failure, crashes included
 };
 

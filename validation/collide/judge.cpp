@@ -169,15 +169,15 @@ void judgeAnswer(const CollisionCase& c, const CollideTruth& truth, const Collid
 std::vector<CollideKind> countKinds(const CollideRun& run) {
     std::vector<CollideKind> kinds;
     for (const CollideCase& c : run.cases) {
-        if (c.asked.tags.empty()) continue;
-        const std::string& tag = c.asked.tags.front();
+        if (c.query.tags.empty()) continue;
+        const std::string& tag = c.query.tags.front();
         auto kind =
             std::find_if(kinds.begin(), kinds.end(), [&](const CollideKind& k) { return k.kind == tag; });
         if (kind == kinds.end()) {
             const std::vector<int> zeros(run.specs.size());
             kind = kinds.insert(kinds.end(), {tag, 0, zeros, zeros});
         }
-        ++kind->asked;
+        ++kind->queried;
         for (std::size_t i = 0; i < run.specs.size(); ++i) {
             kind->answered[i] += c.answers[i].answered ? 1 : 0;
             kind->wrong[i] += isFailure(c.answers[i].verdict) ? 1 : 0;
@@ -192,7 +192,7 @@ CollideSummary summarise(const CollideRun& run, std::size_t spec) {
     Spread depth, relative, distance, angle, excess, points, time;
     for (const CollideCase& c : run.cases) {
         const CollideAnswer& answer = c.answers[spec];
-        ++s.asked;
+        ++s.queried;
         if (answer.verdict == CollideVerdict::Unsupported) ++s.unsupported;
         if (!answer.answered) {
             s.failed += isFailure(answer.verdict) ? 1 : 0;

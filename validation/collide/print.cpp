@@ -69,7 +69,7 @@ Json answerJson(const std::string& spec, const CollideAnswer& a, int dimension) 
 
 Json summaryJson(const CollideSummary& s) {
     return {{"name", s.spec},
-            {"asked", s.asked},
+            {"asked", s.queried},
             {"answered", s.answered},
             {"unsupported", s.unsupported},
             {"undecided", s.undecided},
@@ -104,7 +104,7 @@ std::string shown(const std::optional<Vec3>& v) {
 }
 
 std::string answerLine(const CollideCase& c, const std::string& spec, const CollideAnswer& a) {
-    std::string line = c.asked.name + "  " + spec + "  " + collideVerdictName(a.verdict);
+    std::string line = c.query.name + "  " + spec + "  " + collideVerdictName(a.verdict);
     if (!a.answered) return line + (a.message.empty() ? "" : ": " + a.message);
     line += a.overlap ? "  overlap" : "  apart";
     line += " sd=" + shown(a.signedDistance, "%.10g");
@@ -136,12 +136,12 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, const cha
 }
 
 std::vector<std::vector<std::string>> summaryRows(const CollideRun& run) {
-    std::vector<std::vector<std::string>> rows{{"engine", "asked", "answered", "unsupported", "failed",
+    std::vector<std::vector<std::string>> rows{{"engine", "queried", "answered", "unsupported", "failed",
                                                 "missed", "spurious", "wrong depth", "wrong normal",
                                                 "depth err [m]", "relative", "distance err [m]",
                                                 "angle [rad]", "excess [m]", "point err [m]", "us/query"}};
     for (const CollideSummary& s : run.summaries)
-        rows.push_back({s.spec, std::to_string(s.asked), std::to_string(s.answered),
+        rows.push_back({s.spec, std::to_string(s.queried), std::to_string(s.answered),
                         std::to_string(s.unsupported), std::to_string(s.failed), std::to_string(s.missed),
                         std::to_string(s.spurious), std::to_string(s.wrongDepth),
                         std::to_string(s.wrongNormal), shown(s.depthErrorMax), shown(s.depthRelativeMax),
@@ -157,7 +157,7 @@ std::vector<std::vector<std::string>> kindRows(const CollideRun& run) {
     std::vector<std::vector<std::string>> rows{{"wrong by kind", "cases"}};
     for (const auto& spec : run.specs) rows[0].push_back(spec.text());
     for (const CollideKind& k : kinds) {
-        rows.push_back({k.kind, std::to_string(k.asked)});
+        rows.push_back({k.kind, std::to_string(k.queried)});
         for (std::size_t i = 0; i < run.specs.size(); ++i)
             rows.back().push_back(k.answered[i] + k.wrong[i] == 0 ? "-" : std::to_string(k.wrong[i]));
     }
@@ -170,7 +170,7 @@ std::string truthLine(const CollideRun& run) {
     for (const CollideCase& c : run.cases) {
         ++(c.truth.source == "oracle" ? oracle : c.truth.source == "file" ? file : none);
         if (c.truth.conflict.empty()) continue;
-        if (conflicts++ == 0) first = c.asked.name + ": " + c.truth.conflict;
+        if (conflicts++ == 0) first = c.query.name + ": " + c.truth.conflict;
     }
     std::string line = std::to_string(run.cases.size()) + " cases: " + std::to_string(oracle) +
                        " decided by the oracle, " + std::to_string(file) + " by the file, " +
@@ -209,7 +209,7 @@ std::string csv(const CollideRun& run) {
         for (std::size_t i = 0; i < run.specs.size(); ++i) {
             const CollideAnswer& a = c.answers[i];
             const std::string truth = c.truth.source == "none" ? "" : exact(c.truth.signedDistance);
-            text += csvField(c.asked.name) + "," + csvField(run.specs[i].text()) + "," +
+            text += csvField(c.query.name) + "," + csvField(run.specs[i].text()) + "," +
                     collideVerdictName(a.verdict) + "," + (a.answered ? (a.overlap ? "1" : "0") : "") + "," +
                     exact(a.signedDistance) + "," + truth + "," + exact(a.normal) + "," + exact(a.witnessA) +
                     "," + exact(a.witnessB) + "," + exact(a.distanceError) + "," + exact(a.normalAngle) +
@@ -254,22 +254,22 @@ Json collideJson(const CollideRun& run) {
         for (std::size_t i = 0; i < run.specs.size(); ++i)
             out["kinds"].push_back({{"kind", k.kind},
                                     {"name", run.specs[i].text()},
-                                    {"asked", k.asked},
+                                    {"asked", k.queried},
                                     {"answered", k.answered[i]},
                                     {"wrong", k.wrong[i]}});
     for (const CollideCase& c : run.cases) {
-        Json entry{{"name", c.asked.name},
+        Json entry{{"name", c.query.name},
                    {"file", c.file},
-                   {"line", c.asked.line},
-                   {"dimension", c.asked.dimension},
-                   {"tags", c.asked.tags}};
-        const Json text = Json::parse(c.asked.text);
+                   {"line", c.query.line},
+                   {"dimension", c.query.dimension},
+                   {"tags", c.query.tags}};
+        const Json text = Json::parse(c.query.text);
         for (const char* key : {"a", "pose_a", "b", "pose_b", "expected"})
             if (text.contains(key)) entry[key] = text[key];
-        entry["truth"] = truthJson(c.truth, c.asked.dimension);
+        entry["truth"] = truthJson(c.truth, c.query.dimension);
         entry["answers"] = Json::array();
         for (std::size_t i = 0; i < run.specs.size(); ++i)
-            entry["answers"].push_back(answerJson(run.specs[i].text(), c.answers[i], c.asked.dimension));
+            entry["answers"].push_back(answerJson(run.specs[i].text(), c.answers[i], c.query.dimension));
         out["cases"].push_back(std::move(entry));
     }
     return out;

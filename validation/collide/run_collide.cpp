@@ -57,7 +57,7 @@ class QueryRunner {
                 const std::function<void(std::int64_t, std::int64_t)>& progress)
         : run_(run), options_(options), progress_(progress), pool_(std::max(1, options.jobs)) {
         json questions = json::array();
-        for (const CollideCase& c : run_.cases) questions.push_back(c.asked.text);
+        for (const CollideCase& c : run_.cases) questions.push_back(c.query.text);
         writeJsonFile(questions_, questions);
         total_ = static_cast<std::int64_t>(run_.cases.size() * run_.specs.size());
     }
@@ -126,9 +126,9 @@ void judgeAll(CollideRun& run, int jobs, const std::atomic<bool>& interrupted) {
         for (std::size_t i = next++; i < run.cases.size() && !interrupted; i = next++) {
             CollideCase& c = run.cases[i];
             c.truth.source = "none";
-            if (!c.asked.unsupported.empty()) continue;
-            c.truth = truthOf(c.asked, run.tolerance);
-            for (CollideAnswer& answer : c.answers) judgeAnswer(c.asked, c.truth, run.tolerance, answer);
+            if (!c.query.unsupported.empty()) continue;
+            c.truth = truthOf(c.queried, run.tolerance);
+            for (CollideAnswer& answer : c.answers) judgeAnswer(c.queried, c.truth, run.tolerance, answer);
         }
     };
     std::vector<std::thread> others;

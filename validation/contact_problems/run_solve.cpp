@@ -95,9 +95,9 @@ SolvedProblem describe(const std::filesystem::path& file, const ExportedProblem&
 
 }  // namespace
 
-std::vector<adapter::EngineSpec> contactSolverSpecs(const std::vector<adapter::EngineSpec>& asked,
+std::vector<adapter::EngineSpec> contactSolverSpecs(const std::vector<adapter::EngineSpec>& requested,
                                                     const std::filesystem::path& binary) {
-    std::vector<adapter::EngineSpec> wanted = asked;
+    std::vector<adapter::EngineSpec> wanted = requested;
     if (wanted.empty())
         for (const std::string& engine : adapter::availableEngines()) wanted.push_back({engine, {}});
     std::vector<adapter::EngineSpec> specs;
@@ -105,7 +105,7 @@ std::vector<adapter::EngineSpec> contactSolverSpecs(const std::vector<adapter::E
         (void)adapter::moduleFor(spec);
         const EngineDescription engine = describeEngine(spec.engine, binary);
         if (!engine.problem.empty() || !engine.capabilities.contactSolvers) {
-            if (asked.empty()) continue;
+            if (requested.empty()) continue;
             throw adapter::BadInput(engine.problem.empty()
                                         ? spec.engine + " has no solvers for contact problems"
                                         : spec.engine + ": " + engine.problem);

@@ -52,7 +52,7 @@ struct SolvedProblem {
 
 /// Specs with every solver of an engine where a spec names none; empty: those of all engines that have some.
 /// Throws BadInput for engines without.
-std::vector<adapter::EngineSpec> contactSolverSpecs(const std::vector<adapter::EngineSpec>& asked,
+std::vector<adapter::EngineSpec> contactSolverSpecs(const std::vector<adapter::EngineSpec>& requested,
                                                     const std::filesystem::path& binary);
 
 /// Reads all files first (BadInput), then runs. False in `complete` where it was interrupted.

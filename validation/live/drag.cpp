@@ -34,8 +34,8 @@ DragPull dragForce(const Scenario& scenario, const Drag& drag, std::span<const a
     const Vec3 v = s.velocity + cross(s.angularVelocity, arm);
     const double m = feltMass(body, scenario.dimension, arm);
     const double w = kTwoPi * kUsualFrequency;
-    const double asked = drag.stiffness > 0.0 ? drag.stiffness : body.massProperties.mass * w * w;
-    const double k = std::min(asked, 0.25 * m / (dt * dt));
+    const double requested = drag.stiffness > 0.0 ? drag.stiffness : body.massProperties.mass * w * w;
+    const double k = std::min(requested, 0.25 * m / (dt * dt));
     Vec3 force = k * (drag.target - x) - 2.0 * std::sqrt(k * m) * v;
     Vec3 torque = cross(arm, force);
     if (scenario.dimension == 2) {

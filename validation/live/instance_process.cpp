@@ -89,7 +89,7 @@ InstanceProcess::Answer InstanceProcess::end(Answer::Kind kind, double seconds) 
     return *ended_;
 }
 
-InstanceProcess::Answer InstanceProcess::ask(const nlohmann::json& request, double seconds) {
+InstanceProcess::Answer InstanceProcess::send(const nlohmann::json& request, double seconds) {
     if (ended_) return *ended_;
     Packet question;
     question.header = request;

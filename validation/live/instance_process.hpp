@@ -31,7 +31,7 @@ class InstanceProcess {
     };
     /// Sends a request and waits for the response, at most `seconds`. Once the child has crashed or timed out
     /// it is gone, and every answer is that.
-    Answer ask(const nlohmann::json& request, double seconds);
+    Answer send(const nlohmann::json& request, double seconds);
 
     /// Ends the child, whatever it does; from any thread.
     void kill();

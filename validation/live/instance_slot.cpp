@@ -80,7 +80,7 @@ InstanceSlot::~InstanceSlot() {
 
 bool InstanceSlot::setsThePace() const {
     if (state_ != State::Ready || catchingUp_) return false;
-    return !askedAt_ || Clock::now() - *askedAt_ < kTimeLimit;
+    return !requestedAt_ || Clock::now() - *requestedAt_ < kTimeLimit;
 }
 
 void InstanceSlot::requestStep(std::size_t step) {
@@ -194,9 +194,9 @@ bool InstanceSlot::load() {
         store({Kind::Refused, {}, "error", error.what()});
         return false;
     }
-    auto answer =
-        process_->ask({{"command", "load"}, {"text", plan.text}, {"spec", plan.spec.text()}, {"dt", plan.dt}},
-                      limits_.loadSeconds);
+    auto answer = process_->send(
+        {{"command", "load"}, {"text", plan.text}, {"spec", plan.spec.text()}, {"dt", plan.dt}},
+        limits_.loadSeconds);
     const std::lock_guard lock(clock_.mutex);
     store(std::move(answer));
     clock_.changed.notify_all();
@@ -219,11 +219,11 @@ void InstanceSlot::run() {
             continue;
         }
         Work work = takeWork();
-        askedAt_ = Clock::now();
+        requestedAt_ = Clock::now();
         lock.unlock();
-        auto answer = process_->ask(work.request, secondsFor(work.request));
+        auto answer = process_->send(work.request, secondsFor(work.request));
         lock.lock();
-        askedAt_.reset();
+        requestedAt_.reset();
         const bool ofStage = work.request.at("command") == "stage";
         if (work.now) answerNow(std::move(*work.now), answer);
         if (!work.now || answer.kind == Kind::Crashed || answer.kind == Kind::TimedOut)

@@ -37,10 +37,10 @@ struct InstanceLimits {
 /// at a later one.
 struct InstancePlan {
     int id = 0;
-    std::string title;           ///< title that is displayed
-    std::string text, original;  ///< the scenario it runs; the one that the session opened
-    adapter::EngineSpec asked;   ///< spec as given by the user
-    adapter::EngineSpec spec;    ///< spec with the engine settings of the scenario
+    std::string title;              ///< title that is displayed
+    std::string text, original;     ///< the scenario it runs; the one that the session opened
+    adapter::EngineSpec requested;  ///< spec as given by the user
+    adapter::EngineSpec spec;       ///< spec with the engine settings of the scenario
     double dt = 0.0;
     std::size_t startStep = 0;
     std::optional<int> branchOf;
@@ -107,7 +107,7 @@ class InstanceSlot {
     std::size_t step_ = 0;
     double stepSeconds_ = 0.0;  ///< written and read by the thread alone
     bool inStep_ = false, catchingUp_ = true, closing_ = false;
-    std::optional<std::chrono::steady_clock::time_point> askedAt_;
+    std::optional<std::chrono::steady_clock::time_point> requestedAt_;
     nlohmann::json description_ = nlohmann::json::object();
     Packet frame_;
     std::uint64_t sequence_ = 0, frames_ = 0;

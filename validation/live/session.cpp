@@ -54,7 +54,7 @@ void Session::open(const std::string& text) {
     {
         const std::lock_guard lock(clock_.mutex);
         for (const auto& instance : instances_)
-            if (!instance->plan.branchOf) specs.push_back(instance->plan.asked);
+            if (!instance->plan.branchOf) specs.push_back(instance->plan.requested);
     }
     open(text, specs);
 }

@@ -228,15 +228,15 @@ json Session::insert(InstancePlan plan) {
 
 json Session::add(const json& request) {
     InstancePlan plan;
-    plan.asked = adapter::parseSpec(request.at("spec").get<std::string>());
-    plan.title = plan.asked.text();
+    plan.requested = adapter::parseSpec(request.at("spec").get<std::string>());
+    plan.title = plan.requested.text();
     {
         const std::lock_guard lock(clock_.mutex);
         plan.id = nextId_++;
         plan.text = plan.original = opened_.text;
         plan.dt = dt_;
     }
-    plan.spec = withScenarioSettings(plan.asked, plan.original);
+    plan.spec = withScenarioSettings(plan.requested, plan.original);
     return insert(std::move(plan));
 }
 

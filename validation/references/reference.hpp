@@ -8,10 +8,10 @@
 // that an engine is made of, because shared code would prove nothing.
 //
 // What is guaranteed:
-// - Right or refused. A reference answers only for scenes in which the assumptions listed at the top of its
+// - Right or refused. A reference is made only for scenes in which the assumptions listed at the top of its
 //   file hold; otherwise making it throws AssumptionViolated with the reason. It also refuses where the laws
-//   leave the outcome open, where its own numerics do not reach their accuracy ("no reference to the accuracy
-//   asked for: ..."), and where neither of two opposite answers can be proved ("undecided: ...",
+//   leave the outcome open, where its own numerics do not reach their accuracy ("no reference to the required
+//   accuracy: ..."), and where neither of two opposite results can be proved ("undecided: ...",
 //   static_equilibrium).
 // - Accuracy. Closed forms are evaluated to rounding. Integrated motions keep a local error of 1e-14 (1e-13
 //   and 1e-12 where the file says so) beside the scales of the scene: its lengths, speeds and times, not

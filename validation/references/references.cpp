@@ -40,7 +40,7 @@ std::unique_ptr<Reference> makeReference(const scenario::Scenario& scenario) {
         } catch (const AssumptionViolated&) {
             throw;
         } catch (const std::runtime_error& numerical) {
-            throw AssumptionViolated(std::string("no reference to the accuracy asked for: ") +
+            throw AssumptionViolated(std::string("no reference to the required accuracy: ") +
                                      numerical.what());
         }
     }

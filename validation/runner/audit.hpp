@@ -61,8 +61,8 @@ struct AuditAnswers {
     results::AuditRow row;             ///< held against the oracle
     std::vector<AuditAnswer> answers;  ///< results by query
 };
-AuditAnswers askAuditor(const scenario::Scenario& scenario, const AuditCase& questions,
-                        const adapter::CollisionEngine& engine, const std::string& auditor);
+AuditAnswers queryAuditor(const scenario::Scenario& scenario, const AuditCase& questions,
+                          const adapter::CollisionEngine& engine, const std::string& auditor);
 /// Two engines held against each other, whether or not the oracle knows: a row named "a|b" in which `missed`
 /// counts what b alone calls an overlap, `spurious` what a alone does, and the errors are between the two.
 /// Normals that are both among the exact ones do not differ.
@@ -100,7 +100,8 @@ class AuditQueue {
 
   private:
     struct Batch;
-    void ask(const std::shared_ptr<Batch>& batch, const std::string& auditor, const std::string& onlyCase);
+    void startQueries(const std::shared_ptr<Batch>& batch, const std::string& auditor,
+                      const std::string& onlyCase);
     void answered(const std::shared_ptr<Batch>& batch, const std::string& auditor,
                   const std::string& onlyCase, const ProcessResult& result,
                   const std::filesystem::path& answer);

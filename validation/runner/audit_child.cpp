@@ -107,7 +107,7 @@ json prepare(const json& request) {
 }
 
 /// One engine's answers to the questions of all cases, or of one.
-json ask(const json& request) {
+json runQueries(const json& request) {
     const scenario::Scenario s = scenarioOf(request);
     const auto questions = readJsonFile(request.at("questions").get<std::string>());
     if (!questions) throw std::runtime_error("the questions of the audit can not be read");
@@ -118,15 +118,15 @@ json ask(const json& request) {
         throw std::runtime_error("'" + auditor + "' has no collision queries");
     json rows = json::object();
     for (const json& entry : questions->at("cases")) {
-        AuditCase asked;
-        asked.id = entry.at("id");
-        asked.frames = entry.at("frames");
-        if (!only.empty() && asked.id != only) continue;
-        for (const json& q : entry.at("queries")) asked.queries.push_back(queryFromJson(q));
-        const AuditAnswers said = askAuditor(s, asked, *engine->collision(), auditor);
+        AuditCase requested;
+        requested.id = entry.at("id");
+        requested.frames = entry.at("frames");
+        if (!only.empty() && requested.id != only) continue;
+        for (const json& q : entry.at("queries")) requested.queries.push_back(queryFromJson(q));
+        const AuditAnswers said = queryAuditor(s, requested, *engine->collision(), auditor);
         json answers = json::array();
         for (const AuditAnswer& a : said.answers) answers.push_back(auditAnswerToJson(a));
-        rows[asked.id] = {{"row", auditToJson(said.row)}, {"answers", std::move(answers)}};
+        rows[requested.id] = {{"row", auditToJson(said.row)}, {"answers", std::move(answers)}};
     }
     return rows;
 }
@@ -136,7 +136,7 @@ json ask(const json& request) {
 int auditChild(const std::filesystem::path& requestFile) {
     const auto request = readJsonFile(requestFile);
     if (!request) throw std::runtime_error(requestFile.string() + ": no request");
-    const json answer = request->contains("auditor") ? ask(*request) : prepare(*request);
+    const json answer = request->contains("auditor") ? runQueries(*request) : prepare(*request);
     writeJsonFile(request->at("answer").get<std::string>(), answer);
     return 0;
 }

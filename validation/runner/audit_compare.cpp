@@ -125,8 +125,8 @@ class Comparison {
 
 }  // namespace
 
-AuditAnswers askAuditor(const Scenario& scenario, const AuditCase& questions,
-                        const adapter::CollisionEngine& engine, const std::string& auditor) {
+AuditAnswers queryAuditor(const Scenario& scenario, const AuditCase& questions,
+                          const adapter::CollisionEngine& engine, const std::string& auditor) {
     AuditAnswers said;
     results::AuditRow& row = said.row;
     row.auditor = auditor;

@@ -13,7 +13,7 @@ using results::AuditRow;
 
 namespace {
 constexpr ProcessLimits kPrepareLimits{120.0, 4096};
-constexpr ProcessLimits kAskLimits{30.0, 4096};
+constexpr ProcessLimits kQueryLimits{30.0, 4096};
 
 AuditAnswer answerFromJson(const json& j) {
     AuditAnswer a;
@@ -79,13 +79,13 @@ void AuditQueue::add(const std::string& scenario, const std::string& scenarioTex
                            for (const char* row : {"oracle", kInRun})
                                batch->rows[entry.at("id")][row] = auditFromJson(entry.at(row));
                        batch->pending = 1;
-                       for (const auto& auditor : auditors_) ask(batch, auditor, "");
+                       for (const auto& auditor : auditors_) startQueries(batch, auditor, "");
                        finishOne(batch);
                    }});
 }
 
-void AuditQueue::ask(const std::shared_ptr<Batch>& batch, const std::string& auditor,
-                     const std::string& onlyCase) {
+void AuditQueue::startQueries(const std::shared_ptr<Batch>& batch, const std::string& auditor,
+                              const std::string& onlyCase) {
     const std::string stem = "audit-" + std::to_string(next_++);
     const auto request = files_.scratch / (stem + ".json");
     const auto answer = files_.scratch / (stem + ".answer.json");
@@ -97,7 +97,7 @@ void AuditQueue::ask(const std::shared_ptr<Batch>& batch, const std::string& aud
                             {"answer", answer.string()}});
     ++batch->pending;
     pool_.addNext({{files_.binary.string(), "__audit", request.string()},
-                   kAskLimits,
+                   kQueryLimits,
                    "contact audit: " + batch->scenario + ", " + auditor,
                    [this, batch, auditor, onlyCase, answer](const ProcessResult& result) {
                        answered(batch, auditor, onlyCase, result, answer);
@@ -115,7 +115,7 @@ void AuditQueue::answered(const std::shared_ptr<Batch>& batch, const std::string
         }
     } else if (onlyCase.empty() && batch->cases.size() > 1 && !result.timedOut) {
         // One question killed it: the others deserve their answers. (After a hang they would cost too much.)
-        for (const auto& [id, file] : batch->cases) ask(batch, auditor, id);
+        for (const auto& [id, file] : batch->cases) startQueries(batch, auditor, id);
     } else {
         for (const auto& [id, file] : batch->cases)
             if (onlyCase.empty() || id == onlyCase) batch->rows[id][auditor] = failedRow(auditor, result);

@@ -116,8 +116,8 @@ void addVerdicts(CaseRow& row, const std::vector<OrderEnd>& others) {
 
 }  // namespace
 
-int otherOrders(const scenario::Scenario& scenario, int asked) {
-    return static_cast<int>(listingCount(scenario, static_cast<std::size_t>(std::max(asked, 1)))) - 1;
+int otherOrders(const scenario::Scenario& scenario, int requested) {
+    return static_cast<int>(listingCount(scenario, static_cast<std::size_t>(std::max(requested, 1)))) - 1;
 }
 
 void addOrders(CaseRow& row, std::vector<OrderEnd> others) {

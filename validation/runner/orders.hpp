@@ -18,7 +18,7 @@
 namespace rigor::validation {
 
 /// Orders beside the one as written that `--orders N` runs a scenario in: N - 1, or as many as there are.
-int otherOrders(const scenario::Scenario& scenario, int asked);
+int otherOrders(const scenario::Scenario& scenario, int requested);
 
 /// End of a run in another order.
 struct OrderEnd {

@@ -57,8 +57,8 @@ std::vector<CasePlan> planCases(
         std::set<double> done;
         for (const double dt : timeSteps.empty() ? scenario.timeSteps : timeSteps) {
             if (!done.insert(dt).second) continue;
-            for (const auto& asked : expanded) {
-                const adapter::EngineSpec spec = withScenarioSettings(asked, text);
+            for (const auto& requested : expanded) {
+                const adapter::EngineSpec spec = withScenarioSettings(requested, text);
                 plan.push_back({caseId(text, spec.text(), dt), text, scenario, spec, dt});
             }
         }

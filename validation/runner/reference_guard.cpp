@@ -37,7 +37,7 @@ std::string shownSeconds(double seconds) {
 
 /// A reference may do its work only when the metrics evaluate it, so its end is evaluated here. An exception
 /// here is left to the metric that meets it.
-void askForItsEnd(const scenario::Scenario& s, const Reference& reference) {
+void evaluateItsEnd(const scenario::Scenario& s, const Reference& reference) {
     const double end = std::min(s.duration, reference.validUntil());
     try {
         for (const int body : reference.bodies()) (void)reference.exact(body, end);
@@ -50,7 +50,7 @@ ReferenceCheck computed(const scenario::Scenario& s, const ReferenceMaker& make)
     try {
         const auto reference = make(s);
         if (!reference) return {ReferenceOutcome::None, ""};
-        askForItsEnd(s, *reference);
+        evaluateItsEnd(s, *reference);
         return {ReferenceOutcome::Holds, ""};
     } catch (const AssumptionViolated& violated) {
         return {ReferenceOutcome::Assumption, violated.what()};

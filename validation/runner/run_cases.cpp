@@ -170,7 +170,7 @@ class RunInProgress {
         closed(plan_[index], row);
     }
 
-    /// A stored case was run in as many orders as are asked for; without `--orders` any number does.
+    /// A stored case was run in as many orders as are requested; without `--orders` any number does.
     bool hasOrders(std::size_t index, const CaseRow& stored) const {
         if (options_.orders < 2 || !isRunInOrders(stored)) return true;
         const int others = otherOrders(plan_[index].scenario, options_.orders);
@@ -187,18 +187,18 @@ class RunInProgress {
     /// Request to every child of a case. `name`: the stem of its files in the scratch folder.
     nlohmann::json requestOf(const CasePlan& c, const ReferenceCheck& reference,
                              const std::string& name) const {
-        nlohmann::json asked{{"id", c.id},
-                             {"scenario", c.scenario.name},
-                             {"text", c.scenarioText},
-                             {"spec", c.spec.text()},
-                             {"dt", numberToJson(c.dt)},
-                             {"simulated", simulatedMark(name).string()},
-                             {"reference_seconds", numberToJson(referenceLimitsOf(c).seconds)},
-                             {"answer", answerOf(name).string()}};
+        nlohmann::json requested{{"id", c.id},
+                                 {"scenario", c.scenario.name},
+                                 {"text", c.scenarioText},
+                                 {"spec", c.spec.text()},
+                                 {"dt", numberToJson(c.dt)},
+                                 {"simulated", simulatedMark(name).string()},
+                                 {"reference_seconds", numberToJson(referenceLimitsOf(c).seconds)},
+                                 {"answer", answerOf(name).string()}};
         if (!reference.problem.empty())
-            asked["without_reference"] = {{"outcome", referenceOutcomeName(reference.outcome)},
-                                          {"problem", reference.problem}};
-        return asked;
+            requested["without_reference"] = {{"outcome", referenceOutcomeName(reference.outcome)},
+                                              {"problem", reference.problem}};
+        return requested;
     }
     fs::path answerOf(const std::string& name) const { return scratch_.path() / (name + ".answer.json"); }
 
@@ -206,10 +206,10 @@ class RunInProgress {
     ProcessTask taskOf(std::size_t index, const ReferenceCheck& reference) {
         const CasePlan& c = plan_[index];
         const fs::path request = scratch_.path() / (c.id + ".json");
-        nlohmann::json asked = requestOf(c, reference, c.id);
-        asked["trajectory"] = (directory_ / trajectoryName(c.id)).string();
-        asked["pieces"] = options_.pieces;
-        writeJsonFile(request, asked);
+        nlohmann::json requested = requestOf(c, reference, c.id);
+        requested["trajectory"] = (directory_ / trajectoryName(c.id)).string();
+        requested["pieces"] = options_.pieces;
+        writeJsonFile(request, requested);
         return {{options_.binary.string(), "__case", request.string()},
                 {c.scenario.timeLimit * runsOfCase(), options_.memoryLimitMiB},
                 c.scenario.name + ", " + c.spec.text(),
@@ -225,11 +225,11 @@ class RunInProgress {
         const CasePlan& c = plan_[index];
         const auto known = brokenReferences_.find(index);
         const fs::path request = scratch_.path() / (orderName(c, number) + ".json");
-        nlohmann::json asked =
+        nlohmann::json requested =
             requestOf(c, known == brokenReferences_.end() ? references_.at(c.scenario.name) : known->second,
                       orderName(c, number));
-        asked["order"] = number;
-        writeJsonFile(request, asked);
+        requested["order"] = number;
+        writeJsonFile(request, requested);
         return {{options_.binary.string(), "__case", request.string()},
                 {c.scenario.timeLimit, options_.memoryLimitMiB},
                 c.scenario.name + ", " + c.spec.text() + ", order " + std::to_string(number + 1) + " of " +

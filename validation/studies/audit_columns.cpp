@@ -35,7 +35,7 @@ std::vector<std::string> auditFields() {
     return names;
 }
 
-bool asksForAudit(const scenario::Study& study) {
+bool requestsAudit(const scenario::Study& study) {
     for (const auto& part : study.parts)
         for (const auto& metric : part.metrics)
             if (metric.starts_with(kAuditPrefix)) return true;

@@ -115,12 +115,12 @@ void checkColumn(const scenario::StudyPart& part, const std::string& column) {
 
 void nameSymmetries(scenario::StudyPart& part) {
     std::vector<std::string> names;
-    for (const std::string& asked : part.symmetries) {
-        if (asked != "*" && findSymmetry(asked) == nullptr)
-            throw std::invalid_argument("study part '" + part.name + "': found symmetry '" + asked +
+    for (const std::string& requested : part.symmetries) {
+        if (requested != "*" && findSymmetry(requested) == nullptr)
+            throw std::invalid_argument("study part '" + part.name + "': found symmetry '" + requested +
                                         "', expected one of " + symmetryNames() + ", or *");
         for (const SymmetryEntry& entry : symmetryTable())
-            if ((asked == "*" || asked == entry.name) &&
+            if ((requested == "*" || requested == entry.name) &&
                 std::find(names.begin(), names.end(), entry.name) == names.end())
                 names.push_back(entry.name);
     }

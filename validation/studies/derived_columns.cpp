@@ -35,7 +35,7 @@ struct Stored {
 };
 
 /// A median over runs with its interval.
-StudyValue medianOf(const std::vector<double>& values, const std::string& unit, std::size_t asked) {
+StudyValue medianOf(const std::vector<double>& values, const std::string& unit, std::size_t requested) {
     StudyValue v;
     v.unit = unit;
     if (values.empty()) return v;
@@ -45,9 +45,9 @@ StudyValue medianOf(const std::vector<double>& values, const std::string& unit, 
         v.low = interval->low;
         v.high = interval->high;
     }
-    if (values.size() < asked)
+    if (values.size() < requested)
         v.note += (v.note.empty() ? "" : " ") + std::string("of ") + std::to_string(values.size()) + "/" +
-                  std::to_string(asked);
+                  std::to_string(requested);
     return v;
 }
 
@@ -156,7 +156,7 @@ class Filler {
     // -------------------------------------------------------------------------------------- divergence
     struct Divergences {
         std::vector<Divergence> all;
-        std::size_t asked = 0;
+        std::size_t requested = 0;
         const scenario::Scenario* scenario = nullptr;
     };
     /// The row's own case against the members of its ensemble, or against the case of a variant.
@@ -171,7 +171,7 @@ class Filler {
             others.clear();
             if (const StudyRow* other = sameplace(row.row, variant)) others.push_back(other->caseId);
         }
-        p.asked = others.size();
+        p.requested = others.size();
         const auto own = stored(row.row.caseId);
         for (const std::string& id : others) {
             const auto other = stored(id);
@@ -202,8 +202,8 @@ class Filler {
             if (column.name == "growth" && d.growth) values.push_back(d.growth->rate);
             if (column.name == "split" && d.split) values.push_back(d.split->time);
         }
-        StudyValue v = medianOf(values, unit, p.asked);
-        if (p.all.size() == 1 && p.asked == 1)
+        StudyValue v = medianOf(values, unit, p.requested);
+        if (p.all.size() == 1 && p.requested == 1)
             v.note = divergenceNote(*p.scenario, p.all.front(), column.name);
         if (!v.value && v.note.empty() && !p.all.empty()) v.note = "never";
         return v;

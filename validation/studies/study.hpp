@@ -116,7 +116,7 @@ inline const std::string kOrderPrefix = "order.";
 inline const std::string kAuditPrefix = "audit.";
 std::vector<std::string> auditFields();
 /// A part has such a column: its cases have to be audited.
-bool asksForAudit(const scenario::Study& study);
+bool requestsAudit(const scenario::Study& study);
 
 /// A column of one case: a metric "name" or "name:subject", "quantity.NAME" (what a reference measures in the
 /// run), "time.PHASE" (median wall time of a phase of the step) or "audit.FIELD".

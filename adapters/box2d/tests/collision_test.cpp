@@ -16,7 +16,7 @@ using adapter::Pair;
 using scenario::Pose;
 using scenario::Segment;
 
-CollisionAnswer ask(const Geometry& a, const Pose& poseA, const Geometry& b, const Pose& poseB) {
+CollisionAnswer runQuery(const Geometry& a, const Pose& poseA, const Geometry& b, const Pose& poseB) {
     adapter::CollisionQuery query;
     query.a = {&a, poseA};
     query.b = {&b, poseB};
@@ -51,7 +51,8 @@ TEST_P(Box2dCollision, FindsNormalAndDepthInBothOrdersAnywhere) {
     for (const Pose& place : places)
         for (const bool swapped : {false, true}) {
             const Pose second = place * Pose{c.at, {}};
-            const auto answer = swapped ? ask(c.b, second, c.a, place) : ask(c.a, place, c.b, second);
+            const auto answer =
+                swapped ? runQuery(c.b, second, c.a, place) : runQuery(c.a, place, c.b, second);
             ASSERT_TRUE(answer.overlap);
             ASSERT_EQ(answer.contacts.size(), c.contacts);
             const Vec3 normal = (swapped ? -1.0 : 1.0) * rotate(place.orientation, c.normal);
@@ -80,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Box2dCollisionDistance, IsExactForSeparatedShapes) {
     const auto gap = [](const Geometry& a, const Geometry& b, Vec3 at) {
-        const auto answer = ask(a, {}, b, {at, {}});
+        const auto answer = runQuery(a, {}, b, {at, {}});
         EXPECT_FALSE(answer.overlap);
         EXPECT_TRUE(answer.contacts.empty());
         EXPECT_NEAR(norm(*answer.witnessB - *answer.witnessA), *answer.signedDistance, 1e-5);
@@ -94,9 +95,9 @@ TEST(Box2dCollisionDistance, IsExactForSeparatedShapes) {
 }
 
 TEST(Box2dCollisionInput, WhatItCanNotAnswerIsRefused) {
-    EXPECT_THROW(ask(Sphere{-1}, {}, Sphere{1}, {}), adapter::BadInput);
+    EXPECT_THROW(runQuery(Sphere{-1}, {}, Sphere{1}, {}), adapter::BadInput);
     // The circle's centre on the capsule's core: Box2D has no depth for that.
-    EXPECT_THROW(ask(Capsule{0.2, 0.5}, {}, Sphere{0.5}, {}), adapter::Unsupported);
+    EXPECT_THROW(runQuery(Capsule{0.2, 0.5}, {}, Sphere{0.5}, {}), adapter::Unsupported);
     adapter::CollisionQuery query;
     const Geometry ball = Sphere{1};
     query.a = query.b = {&ball, {}};

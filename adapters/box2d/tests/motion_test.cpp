@@ -220,7 +220,7 @@ TEST(Box2dJoints, FixedHoldsAndRodKeepsItsLength) {
     EXPECT_NEAR(norm(run.state(held).position - Vec3{1, 0, 0}), 0.0, 1e-3);
 }
 
-TEST(Box2dJoints, ConnectedBodiesCollideOnlyWhereAsked) {
+TEST(Box2dJoints, ConnectedBodiesCollideOnlyIfRequested) {
     for (const bool collide : {false, true}) {
         Scenario s = plane();
         s.gravity = {};

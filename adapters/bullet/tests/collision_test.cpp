@@ -16,8 +16,8 @@ using adapter::Aabb;
 using adapter::CollisionAnswer;
 using adapter::Pair;
 
-CollisionAnswer ask(const Geometry& a, const scenario::Pose& poseA, const Geometry& b,
-                    const scenario::Pose& poseB, int dimension = 3) {
+CollisionAnswer runQuery(const Geometry& a, const scenario::Pose& poseA, const Geometry& b,
+                         const scenario::Pose& poseB, int dimension = 3) {
     adapter::CollisionQuery query;
     query.a = {&a, poseA};
     query.b = {&b, poseB};
@@ -42,7 +42,7 @@ class BulletCollision : public testing::TestWithParam<Case> {};
 TEST_P(BulletCollision, FindsNormalAndDepthInBothOrders) {
     const Case& c = GetParam();
     for (const bool swapped : {false, true}) {
-        const auto answer = swapped ? ask(c.b, {c.at, {}}, c.a, {}) : ask(c.a, {}, c.b, {c.at, {}});
+        const auto answer = swapped ? runQuery(c.b, {c.at, {}}, c.a, {}) : runQuery(c.a, {}, c.b, {c.at, {}});
         ASSERT_TRUE(answer.overlap);
         ASSERT_GE(answer.contacts.size(), c.contacts);
         const Vec3 normal = (swapped ? -1.0 : 1.0) * c.normal;
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(BulletCollisionDistance, IsExactForSeparatedShapes) {
     const auto gap = [](const Geometry& a, const Geometry& b, Vec3 at) {
-        const auto answer = ask(a, {}, b, {at, {}});
+        const auto answer = runQuery(a, {}, b, {at, {}});
         EXPECT_FALSE(answer.overlap);
         EXPECT_TRUE(answer.contacts.empty());
         EXPECT_NEAR(norm(*answer.witnessB - *answer.witnessA), *answer.signedDistance, tol(1e-6, 1e-4));
@@ -106,7 +106,7 @@ TEST(BulletCollisionDistance, IsExactForSeparatedShapes) {
 TEST(BulletCollisionPlanar, PrismsAnswerInThePlaneHoweverDeep) {
     scenario::ConvexHull square;
     square.vertices = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}};
-    const auto answer = ask(Box{{2, 2, 0}}, {}, square, {{2.5, 0, 0}, {}}, 2);
+    const auto answer = runQuery(Box{{2, 2, 0}}, {}, square, {{2.5, 0, 0}, {}}, 2);
     ASSERT_TRUE(answer.overlap);
     EXPECT_EQ(answer.contacts.size(), 2u);
     EXPECT_NEAR(norm(answer.contacts[0].normal - Vec3{1, 0, 0}), 0.0, tol(1e-6, 1e-4));
@@ -118,7 +118,7 @@ TEST(BulletCollisionPlanar, PrismsAnswerInThePlaneHoweverDeep) {
 TEST(BulletPlanar, ASegmentIsTouchedFromBothSides) {
     for (const double side : {0.4, -0.4}) {
         const auto answer =
-            ask(scenario::Segment{{-1, 0, 0}, {1, 0, 0}}, {}, Sphere{0.5}, {{0.2, side, 0}, {}}, 2);
+            runQuery(scenario::Segment{{-1, 0, 0}, {1, 0, 0}}, {}, Sphere{0.5}, {{0.2, side, 0}, {}}, 2);
         ASSERT_EQ(answer.contacts.size(), 1u);
         EXPECT_NEAR(answer.contacts[0].depth, 0.1, tol(1e-9, 1e-6));
         EXPECT_NEAR(answer.contacts[0].normal.y, side > 0 ? 1.0 : -1.0, 1e-6);
@@ -126,11 +126,11 @@ TEST(BulletPlanar, ASegmentIsTouchedFromBothSides) {
 }
 
 TEST(BulletCollisionInput, BadQueriesAreRefused) {
-    EXPECT_THROW(ask(Sphere{-1}, {}, Sphere{1}, {}), adapter::BadInput);
-    EXPECT_THROW(ask(HalfSpace{}, {}, HalfSpace{}, {}), adapter::Unsupported);
+    EXPECT_THROW(runQuery(Sphere{-1}, {}, Sphere{1}, {}), adapter::BadInput);
+    EXPECT_THROW(runQuery(HalfSpace{}, {}, HalfSpace{}, {}), adapter::Unsupported);
     const scenario::HeightField flat{2, 2, 1.0, 1.0, {0, 0, 0, 0}, 1.0};
-    EXPECT_THROW(ask(flat, {}, flat, {}), adapter::Unsupported);
-    EXPECT_THROW(ask(flat, {}, Sphere{1}, {}, 2), adapter::Unsupported);
+    EXPECT_THROW(runQuery(flat, {}, flat, {}), adapter::Unsupported);
+    EXPECT_THROW(runQuery(flat, {}, Sphere{1}, {}, 2), adapter::Unsupported);
 }
 
 TEST(BulletBroadPhase, AgreesWithBruteForceWhileBoxesMove) {

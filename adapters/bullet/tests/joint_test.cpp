@@ -123,7 +123,7 @@ TEST(BulletJoints, HalfPeriodOfAPhysicalPendulum) {
 }
 
 /// The connected bodies overlap: they may collide or not, as the joint says.
-TEST(BulletJoints, ConnectedBodiesCollideOnlyWhereAsked) {
+TEST(BulletJoints, ConnectedBodiesCollideOnlyIfRequested) {
     for (const bool collide : {false, true}) {
         Scenario s = scene();
         s.gravity = {};

@@ -99,10 +99,10 @@ TEST(Replay, StepsThatEndALogAreCountedOn) {
 }
 
 TEST(Replay, WithoutALogOfThePastThereIsNone) {
-    const auto asked = world(), late = world(), never = world();
-    EXPECT_NE(asked->snapshots(), nullptr);
-    for (ReplayWorld* w : {asked.get(), late.get()}) w->applyForce(0, {1, 0, 0}, {});
-    EXPECT_NE(asked->snapshots(), nullptr);
+    const auto requested = world(), late = world(), never = world();
+    EXPECT_NE(requested->snapshots(), nullptr);
+    for (ReplayWorld* w : {requested.get(), late.get()}) w->applyForce(0, {1, 0, 0}, {});
+    EXPECT_NE(requested->snapshots(), nullptr);
     EXPECT_EQ(late->snapshots(), nullptr) << "the force is not in the log";
     steps(*never, 100);
     EXPECT_NE(never->snapshots(), nullptr) << "steps are always counted";

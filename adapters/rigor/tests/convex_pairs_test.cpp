@@ -170,7 +170,7 @@ TYPED_TEST(ConvexPairs, HardCasesAgreeWithTheOracle) {
 TEST(PublishedPairs, AgreeWithTheOracle) {
     const char* data = std::getenv("RIGOR_DATA");
     if (data == nullptr) GTEST_SKIP() << "RIGOR_DATA is not set";
-    int asked = 0;
+    int queries = 0;
     for (const char* name : {"cases.jsonl", "generated.jsonl"}) {
         const auto file = std::filesystem::path(data) / "collision-cases" / name;
         if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
@@ -191,7 +191,7 @@ TEST(PublishedPairs, AgreeWithTheOracle) {
                     skip = true;  // a flat hull: no shape of the engine
                 }
             if (skip) continue;
-            ++asked;
+            ++queries;
             const double placed = 1e-15 * (norm(c.a.pose.position) + norm(c.b.pose.position));
             // "sat" keeps a face while another axis is better by less than this share of the depth.
             const double kept = 1e-7 * std::abs(exact->signedDistance);
@@ -199,7 +199,7 @@ TEST(PublishedPairs, AgreeWithTheOracle) {
                                        exact->signedDistance, size, 1e-12 * size + placed + kept);
         }
     }
-    EXPECT_GT(asked, 500);
+    EXPECT_GT(queries, 500);
 }
 
 }  // namespace

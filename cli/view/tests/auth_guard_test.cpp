@@ -131,7 +131,7 @@ TEST_F(AuthGuardTest, WhatChangesComesFromOurPageAlone) {
 }
 
 /// Another port of this machine is the same site to a cookie.
-TEST_F(AuthGuardTest, OtherSitesMayNotEvenAsk) {
+TEST_F(AuthGuardTest, RequestsOfOtherSitesAreRefused) {
     Credentials credentials = get("/api/frames");
     credentials.cookie = cookie();
     for (const char* site : {"same-site", "cross-site", "anything"}) {

@@ -98,21 +98,21 @@ double deepest(const Contact<S>& contact) {
     return least;
 }
 
-TYPED_TEST(Reuse, KeptPointsAreThoseOfAskingAgain) {
+TYPED_TEST(Reuse, CachedPointsAreThoseOfANewQuery) {
     using S = TypeParam;
     Random<S> random;
     int kept = 0;
     for (int trial = 0; trial < 100; ++trial) {
-        Pair<S> keeping(kReuse, 0.3), asking(0, 0.3);
-        asking.search.speculativeDistance += static_cast<typename S::Real>(kReuse);
+        Pair<S> keeping(kReuse, 0.3), querying(0, 0.3);
+        querying.search.speculativeDistance += static_cast<typename S::Real>(kReuse);
         const Pose<S> start = resting(random);
         keeping.bodies.pose[1] = start;
         ASSERT_EQ(keeping.find().size(), 1u);
         ASSERT_EQ(keeping.set.queries(), 1u);
         for (int motion = 0; motion < 10; ++motion) {
             const Pose<S> moved{start.p + random.vec(4e-4), rotatedBy(start.q, random.ang(5e-4))};
-            keeping.bodies.pose[1] = asking.bodies.pose[1] = moved;
-            const ContactList<S>&with = keeping.find(), &without = asking.find();
+            keeping.bodies.pose[1] = querying.bodies.pose[1] = moved;
+            const ContactList<S>&with = keeping.find(), &without = querying.find();
             ASSERT_EQ(with.size(), 1u);
             ASSERT_EQ(without.size(), 1u);
             if (keeping.set.queries() > 0) break;  // moved too far after all
@@ -146,8 +146,8 @@ void expectDepthWithinTheMotion(bool apart) {
     Random<S> random;
     int kept = 0;
     for (int trial = 0; trial < 2000; ++trial) {
-        Pair<S> keeping(kReuse, 0.3), asking(0, 0.3);
-        asking.search.speculativeDistance = static_cast<typename S::Real>(apart ? kSpeculative : 0.01);
+        Pair<S> keeping(kReuse, 0.3), querying(0, 0.3);
+        querying.search.speculativeDistance = static_cast<typename S::Real>(apart ? kSpeculative : 0.01);
         Pose<S> start{random.vec(1.0), rotatedBy(Pose<S>{}.q, random.ang(2))};
         start.p[1] = static_cast<typename S::Real>(random.in(1.2, 1.5));
         keeping.bodies.pose[1] = start;
@@ -156,8 +156,8 @@ void expectDepthWithinTheMotion(bool apart) {
         if (found < -0.02) continue;  // deep overlaps have more than one way out
         for (int motion = 0; motion < 10; ++motion) {
             const Pose<S> moved{start.p + random.vec(4e-4), rotatedBy(start.q, random.ang(5e-4))};
-            keeping.bodies.pose[1] = asking.bodies.pose[1] = moved;
-            const ContactList<S>&with = keeping.find(), &without = asking.find();
+            keeping.bodies.pose[1] = querying.bodies.pose[1] = moved;
+            const ContactList<S>&with = keeping.find(), &without = querying.find();
             if (keeping.set.queries() > 0 || keeping.set.pairs().empty()) break;
             ++kept;
             if (apart) {
@@ -182,11 +182,11 @@ TYPED_TEST(Reuse, NothingFoundStaysTrue) {
 
 /// A box that comes slowly towards an edge of the other, face first, while their boxes overlap: it is found
 /// as early as by a query in every step, which far away is not done.
-TYPED_TEST(Reuse, WhatIsFarApartIsNotAskedAboutUntilItMayBeNear) {
+TYPED_TEST(Reuse, DistantShapesAreNotQueriedUntilTheyMayBeNear) {
     using S = TypeParam;
     using R = typename S::Real;
     Random<S> random;
-    int steps = 0, asked = 0, found = 0;
+    int steps = 0, queries = 0, found = 0;
     for (int trial = 0; trial < 20; ++trial) {
         Pair<S> keeping(kReuse, 0.3), near(0, 0.3), wide(0, 0.3);
         wide.search.speculativeDistance += static_cast<R>(1.01 * kReuse);
@@ -208,15 +208,15 @@ TYPED_TEST(Reuse, WhatIsFarApartIsNotAskedAboutUntilItMayBeNear) {
             EXPECT_TRUE(kept || near.find().empty()) << "gap " << gap;
             EXPECT_FALSE(kept && wide.find().empty()) << "gap " << gap;
             ++steps;
-            asked += static_cast<int>(keeping.set.queries());
+            queries += static_cast<int>(keeping.set.queries());
             found += kept;
         }
     }
     EXPECT_GT(found, 20);
-    EXPECT_LT(asked, steps / 2);
+    EXPECT_LT(queries, steps / 2);
 }
 
-TYPED_TEST(Reuse, MovingFurtherAsksAgain) {
+TYPED_TEST(Reuse, MovingFurtherQueriesAgain) {
     using S = TypeParam;
     using R = typename S::Real;
     Random<S> random;
@@ -247,12 +247,12 @@ TYPED_TEST(Reuse, MovingFurtherAsksAgain) {
 
 /// Small shapes are queried again after a fiftieth of their radius, however large the cache tolerance: so
 /// much at most has their normal turned, and twice that is their depth wrong.
-TYPED_TEST(Reuse, SmallShapesAreAskedAboutSooner) {
+TYPED_TEST(Reuse, SmallShapesAreQueriedSooner) {
     using S = TypeParam;
     using R = typename S::Real;
     Random<S> random;
     const double half = 3e-3, slack = 0.02 * half * std::sqrt(S::dim);
-    const auto askedAfter = [&](double moved, double turned) {
+    const auto queriesAfter = [&](double moved, double turned) {
         Pair<S> pair(kReuse, half);
         Pose<S>& X = pair.bodies.pose[1];
         X.p = at<S>(0.2, 1 + half);
@@ -262,11 +262,11 @@ TYPED_TEST(Reuse, SmallShapesAreAskedAboutSooner) {
         EXPECT_EQ(pair.find().size(), 1u);
         return pair.set.queries();
     };
-    EXPECT_EQ(askedAfter(0.9 * slack, 0), 0u);
-    EXPECT_EQ(askedAfter(1.1 * slack, 0), 1u);
-    EXPECT_EQ(askedAfter(0, 0.9 * 0.02), 0u);
-    EXPECT_EQ(askedAfter(0, 1.1 * 0.02), 1u);
-    EXPECT_EQ(askedAfter(0.6 * slack, 0.6 * 0.02), 1u);
+    EXPECT_EQ(queriesAfter(0.9 * slack, 0), 0u);
+    EXPECT_EQ(queriesAfter(1.1 * slack, 0), 1u);
+    EXPECT_EQ(queriesAfter(0, 0.9 * 0.02), 0u);
+    EXPECT_EQ(queriesAfter(0, 1.1 * 0.02), 1u);
+    EXPECT_EQ(queriesAfter(0.6 * slack, 0.6 * 0.02), 1u);
 }
 
 /// A pair that parts and comes back while the broad phase goes on listing it, because of fat AABBs: what
@@ -332,7 +332,7 @@ World<S> stack(double reuse, double boxMargin, int threads = 1, const char* slee
     return world;
 }
 
-TYPED_TEST(Reuse, AStackAtRestIsNotAskedAboutAndStands) {
+TYPED_TEST(Reuse, AStackAtRestIsNotQueriedAndStands) {
     using S = TypeParam;
     World<S> world = stack<S>(kReuse, 0.1);
     for (int i = 0; i < 240; ++i) world.step(typename S::Real(1.0 / 60));
@@ -401,7 +401,7 @@ TYPED_TEST(Reuse, RemovedBodiesTakeTheirAnswersAlong) {
     for (const Contact<S>& contact : world.manifolds()) EXPECT_GT(deepest<S>(contact), -2e-3);
 }
 
-TYPED_TEST(Reuse, WhatMovesTogetherIsNotAskedAbout) {
+TYPED_TEST(Reuse, ShapesThatMoveTogetherAreNotQueried) {
     using S = TypeParam;
     using R = typename S::Real;
     WorldDef<S> def = earth<S>();
@@ -421,7 +421,7 @@ TYPED_TEST(Reuse, WhatMovesTogetherIsNotAskedAbout) {
     EXPECT_NEAR(double(world.pose(cube).p[0]), 2.2, 2e-3);
 }
 
-TYPED_TEST(Reuse, IsRefusedWithAManifoldThatGrowsByAsking) {
+TYPED_TEST(Reuse, IsRefusedWithAManifoldThatGrowsByQueries) {
     WorldDef<TypeParam> def;
     def.cacheTolerance = typename TypeParam::Real(kReuse);
     def.manifold = "persistent";

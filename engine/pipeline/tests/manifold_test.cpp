@@ -84,10 +84,10 @@ TYPED_TEST(Manifolds, TheDeepestPointAloneLetsABoxRock) {
 template <class S>
 class Counting final : public NarrowPhase<S> {
   public:
-    mutable int asked = 0;
+    mutable int queries = 0;
     void collide(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
                  typename S::Real speculativeDistance, Manifold<S>& out) const override {
-        ++asked;
+        ++queries;
         collideSat<S>(a, Xa, b, Xb, speculativeDistance, out);
     }
 };
@@ -101,7 +101,7 @@ TYPED_TEST(Manifolds, AWorldMayCarryANarrowPhaseOfItsOwn) {
     Stack<S> custom(def, 2);
     plain.run(0.5);
     custom.run(0.5);
-    EXPECT_GT(counting->asked, 60);
+    EXPECT_GT(counting->queries, 60);
     EXPECT_EQ(plain.world.stateHash(), custom.world.stateHash());
 }
 

@@ -72,8 +72,8 @@ class SplitImpulse final : public PositionCorrection<S> {
             const Real error = problem.separation(c) + slop;
             const Block<S>& block = problem.contactBlock(c);
             const Row<S>& row = problem.contactRow(c);
-            const Real asked = error < 0 ? std::max(kBaumgarte * error, -kLongestMove) : error;
-            units_.push_back({block, row, asked, problem.moved(block, row), 0, true});
+            const Real requested = error < 0 ? std::max(kBaumgarte * error, -kLongestMove) : error;
+            units_.push_back({block, row, requested, problem.moved(block, row), 0, true});
         }
     }
 

@@ -10,7 +10,7 @@
 //                 normals before all friction, which would otherwise have no limit yet where bodies meet, and
 //                 hold on to the rotation that one corner makes and the next takes back
 //     move        x += h v
-//     relax       one more iteration, rigid and without what the errors asked for: the pushing velocity has
+//     relax       one more iteration, rigid and without the bias of the errors: the pushing velocity has
 //                 done its work and is taken out again, the impulses keep the load
 // Contacts are found once per step; their separations follow the motion to first order. Restitution is a
 // target of the rows of the sub-step in which an impact occurs (contact_rows.cpp), kept by the relaxation,

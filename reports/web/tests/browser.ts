@@ -104,12 +104,12 @@ export interface Watched {
 }
 
 /** A page that can reach only allowed addresses, and its faults: errors, and other requests. */
-export async function faultsOf(browser: Browser, options: BrowserContextOptions, mayAsk: (url: string) => boolean) {
+export async function faultsOf(browser: Browser, options: BrowserContextOptions, mayRequest: (url: string) => boolean) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 1000 }, ...options });
   const faults: string[] = [];
   await context.route('**/*', (route) => {
     const url = route.request().url();
-    if (mayAsk(url)) return route.continue();
+    if (mayRequest(url)) return route.continue();
     faults.push(`fetched ${url}`);
     return route.abort();
   });
@@ -123,8 +123,8 @@ export async function faultsOf(browser: Browser, options: BrowserContextOptions,
 
 /** A page that can reach files alone, and reports every error. */
 export async function watched(browser: Browser, options: BrowserContextOptions = {}): Promise<Watched> {
-  const mayAsk = (url: string) => /^(file|data|blob):/.test(url);
-  const { page, context, faults } = await faultsOf(browser, { offline: true, ...options }, mayAsk);
+  const mayRequest = (url: string) => /^(file|data|blob):/.test(url);
+  const { page, context, faults } = await faultsOf(browser, { offline: true, ...options }, mayRequest);
   page.on('requestfailed', (request) => {
     // Leaving a page breaks off what it still loads: no fault of the page.
     if (request.failure()?.errorText !== 'net::ERR_ABORTED') faults.push(`failed: ${request.url()}`);

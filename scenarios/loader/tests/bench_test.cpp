@@ -70,7 +70,7 @@ TEST(BenchPlan, IsReadWithItsBounds) {
     }
 }
 
-TEST(BenchPlan, QualityIsAskedAfterTheTimedStepsUnlessSaid) {
+TEST(BenchPlan, QualityIsTestedAfterTheTimedStepsByDefault) {
     const Scenario s =
         load(scene("", R"({"warm_up_steps": 7, "timed_steps": 5, "quality": {"joint_gap": 1}})", "2"));
     EXPECT_EQ(s.bench->qualityStep, 12);

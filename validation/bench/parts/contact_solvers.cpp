@@ -93,13 +93,14 @@ class ContactSolverBench final : public BenchCase {
 }  // namespace
 
 std::vector<PlannedBench> planContactSolvers(const BenchRequest& request) {
-    std::vector<adapter::EngineSpec> asked;
+    std::vector<adapter::EngineSpec> requested;
     for (const std::string& text : request.engines) {
         const adapter::EngineSpec spec = adapter::parseSpec(text);
-        if (describeEngine(spec.engine, request.binary).capabilities.contactSolvers) asked.push_back(spec);
+        if (describeEngine(spec.engine, request.binary).capabilities.contactSolvers)
+            requested.push_back(spec);
     }
-    if (asked.empty() && !request.engines.empty()) return {};
-    const std::vector<adapter::EngineSpec> specs = contactSolverSpecs(asked, request.binary);
+    if (requested.empty() && !request.engines.empty()) return {};
+    const std::vector<adapter::EngineSpec> specs = contactSolverSpecs(requested, request.binary);
     std::vector<PlannedBench> all;
     for (const std::string& scene : contactScenes())
         for (const char* residual : kTargets) {

@@ -36,10 +36,10 @@ double mean(const std::vector<double>& values) {
 }  // namespace
 
 std::vector<PartEngine> partEngines(const BenchRequest& request) {
-    std::vector<std::string> asked = request.engines;
-    if (asked.empty()) asked = adapter::availableEngines();
+    std::vector<std::string> requested = request.engines;
+    if (requested.empty()) requested = adapter::availableEngines();
     std::vector<PartEngine> engines;
-    for (const std::string& text : asked) {
+    for (const std::string& text : requested) {
         PartEngine engine{adapter::parseSpec(text), {}};
         engine.description = describeEngine(engine.spec.engine, request.binary);
         if (!engine.description.problem.empty()) continue;

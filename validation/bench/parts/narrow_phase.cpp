@@ -35,7 +35,7 @@ class Baseline final : public adapter::CollisionBatch {
     }
     std::size_t run() override {
         std::size_t apart = 0;
-        for (const auto& pair : pairs_) apart += ask_(pair);
+        for (const auto& pair : pairs_) apart += query_(pair);
         return apart;
     }
     std::vector<adapter::ContactPoint> contacts(std::size_t) override { return {}; }
@@ -46,7 +46,7 @@ class Baseline final : public adapter::CollisionBatch {
     };
     static std::size_t far(const Poses& poses) { return poses.b.position.x - poses.a.position.x > 1e9; }
     std::vector<Poses> pairs_;
-    std::size_t (*volatile ask_)(const Poses&) = far;  ///< not inlined, like any engine's function
+    std::size_t (*volatile query_)(const Poses&) = far;  ///< not inlined, like any engine's function
 };
 
 struct Judgement {

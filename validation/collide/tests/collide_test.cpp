@@ -96,7 +96,7 @@ TEST(Judge, KindsAreTallied) {
     run.specs = {adapter::parseSpec("one"), adapter::parseSpec("two")};
     for (const char* kind : {"deep", "thin", "deep", ""}) {
         CollideCase c;
-        if (*kind) c.asked.tags = {kind, "box"};
+        if (*kind) c.query.tags = {kind, "box"};
         c.answers = {answer(-1, std::nullopt), answer(-1, std::nullopt)};
         c.answers[0].verdict = CollideVerdict::Ok;
         c.answers[1].verdict = CollideVerdict::WrongDepth;
@@ -107,7 +107,7 @@ TEST(Judge, KindsAreTallied) {
     const auto kinds = countKinds(run);
     ASSERT_EQ(kinds.size(), 2u);
     EXPECT_EQ(kinds[0].kind, "deep");
-    EXPECT_EQ(kinds[0].asked, 2);
+    EXPECT_EQ(kinds[0].queried, 2);
     EXPECT_EQ(kinds[0].answered, (std::vector<int>{2, 1}));
     EXPECT_EQ(kinds[0].wrong, (std::vector<int>{0, 1}));
     EXPECT_EQ(kinds[1].wrong, (std::vector<int>{0, 1}));
@@ -172,7 +172,7 @@ scenario::CollisionFile fileOfBalls(const std::vector<double>& depths) {
     return file;
 }
 
-CollideRun askDoubles(const std::vector<double>& depths, const char* engine, double seconds = 1.0) {
+CollideRun runDoubles(const std::vector<double>& depths, const char* engine, double seconds = 1.0) {
     setenv("RIGOR_ADAPTER_PATH", (std::string(RIGOR_BINARY_DIR) + "/tests/doubles").c_str(), 1);
     CollideOptions options;
     options.binary = std::string(RIGOR_BINARY_DIR) + "/bin/rigor";
@@ -190,7 +190,7 @@ std::vector<CollideVerdict> verdicts(const CollideRun& run) {
 
 /// A query that kills its library costs that one answer; those before and behind it are there.
 TEST(Children, OneFatalQueryCostsOneAnswer) {
-    const auto run = askDoubles({0.1, 2.5, 0.2, 1.5, 0.3, 0.75, 0.4, -1.0}, "double_auditor_moody");
+    const auto run = runDoubles({0.1, 2.5, 0.2, 1.5, 0.3, 0.75, 0.4, -1.0}, "double_auditor_moody");
     using V = CollideVerdict;
     EXPECT_EQ(verdicts(run),
               (std::vector<V>{V::Ok, V::Crashed, V::Ok, V::Crashed, V::Ok, V::Timeout, V::Ok, V::Ok}));
@@ -202,18 +202,18 @@ TEST(Children, OneFatalQueryCostsOneAnswer) {
 
 TEST(Children, FaultyEnginesAreCaught) {
     const std::vector<double> depths{0.1, 0.2};
-    EXPECT_EQ(verdicts(askDoubles(depths, "double_auditor"))[0], CollideVerdict::Ok);
-    EXPECT_EQ(verdicts(askDoubles(depths, "double_auditor_flipped"))[0], CollideVerdict::WrongNormal);
-    EXPECT_EQ(verdicts(askDoubles(depths, "double_auditor_deep"))[1], CollideVerdict::WrongDepth);
-    EXPECT_EQ(verdicts(askDoubles(depths, "double_auditor_blind"))[1], CollideVerdict::WrongOverlap);
-    EXPECT_EQ(verdicts(askDoubles({-0.1}, "double_auditor_anxious"))[0], CollideVerdict::WrongOverlap);
-    EXPECT_EQ(verdicts(askDoubles(depths, "double_auditor_abort"))[1], CollideVerdict::Crashed);
+    EXPECT_EQ(verdicts(runDoubles(depths, "double_auditor"))[0], CollideVerdict::Ok);
+    EXPECT_EQ(verdicts(runDoubles(depths, "double_auditor_flipped"))[0], CollideVerdict::WrongNormal);
+    EXPECT_EQ(verdicts(runDoubles(depths, "double_auditor_deep"))[1], CollideVerdict::WrongDepth);
+    EXPECT_EQ(verdicts(runDoubles(depths, "double_auditor_blind"))[1], CollideVerdict::WrongOverlap);
+    EXPECT_EQ(verdicts(runDoubles({-0.1}, "double_auditor_anxious"))[0], CollideVerdict::WrongOverlap);
+    EXPECT_EQ(verdicts(runDoubles(depths, "double_auditor_abort"))[1], CollideVerdict::Crashed);
 }
 
 TEST(Children, ManyCasesComeBackInOrder) {
     std::vector<double> depths;
     for (int i = 0; i < 2500; ++i) depths.push_back(0.4 * (i + 1) / 2500.0);
-    const auto run = askDoubles(depths, "double_auditor");
+    const auto run = runDoubles(depths, "double_auditor");
     for (std::size_t i = 0; i < depths.size(); ++i)
         ASSERT_NEAR(run.cases[i].answers[0].signedDistance.value(), -depths[i], 1e-12) << i;
     EXPECT_EQ(run.summaries[0].answered, 2500);
@@ -221,7 +221,7 @@ TEST(Children, ManyCasesComeBackInOrder) {
 }
 
 TEST(Print, JsonHasRoundTripDigits) {
-    const auto run = askDoubles({1.0 / 3.0}, "double_auditor");
+    const auto run = runDoubles({1.0 / 3.0}, "double_auditor");
     const auto json = nlohmann::json::parse(collideJson(run).dump());
     const auto& c = json.at("cases").at(0);
     EXPECT_EQ(c.at("answers").at(0).at("signed_distance").get<double>(),

@@ -156,7 +156,7 @@ TEST(InHouse, IsRightOnRandomPairs) {
                        options, {}, never);
         for (const CollideCase& c : run.cases)
             for (const CollideAnswer& a : c.answers)
-                EXPECT_EQ(a.verdict, V::Ok) << collideVerdictName(a.verdict) << " " << c.asked.text;
+                EXPECT_EQ(a.verdict, V::Ok) << collideVerdictName(a.verdict) << " " << c.query.text;
     }
 }
 
@@ -181,11 +181,11 @@ TEST_P(KnownWrongAnswers, AreFoundAndNoOthers) {
     const auto run = runCollide({file}, {spec}, options, {}, never);
     std::set<std::string> met;
     for (const CollideCase& c : run.cases) {
-        SCOPED_TRACE(c.asked.name + ", " + GetParam());
+        SCOPED_TRACE(c.query.name + ", " + GetParam());
         EXPECT_EQ(c.truth.conflict, "");
         const CollideAnswer& a = c.answers.front();
         const auto isThis = [&](const auto& row) {
-            return c.asked.name == row.name && spec.text() == row.spec;
+            return c.query.name == row.name && spec.text() == row.spec;
         };
         const auto known = std::find_if(std::begin(kKnown), std::end(kKnown), isThis);
         if (known == std::end(kKnown)) {
@@ -202,10 +202,10 @@ TEST_P(KnownWrongAnswers, AreFoundAndNoOthers) {
         if (contacts != std::end(kContacts)) {
             EXPECT_EQ(a.contacts, contacts->count);
         }
-        if (spec.engine == "rigor" && c.asked.tags.front() == "contacts") {
-            EXPECT_GE(a.contacts, c.asked.name == "capsule_lying_on_box" ? 2 : 4);
+        if (spec.engine == "rigor" && c.query.tags.front() == "contacts") {
+            EXPECT_GE(a.contacts, c.query.name == "capsule_lying_on_box" ? 2 : 4);
         }
-        met.insert(c.asked.name);
+        met.insert(c.query.name);
     }
     for (const Known& k : kKnown) EXPECT_EQ(met.count(k.name), 1u) << k.name;
     for (const Contacts& k : kContacts) EXPECT_EQ(met.count(k.name), 1u) << k.name;

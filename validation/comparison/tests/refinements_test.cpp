@@ -111,7 +111,7 @@ TEST(Refinements, EqualTimeGivesEachEngineTheBudgetOfTheSlowest) {
 }
 
 /// Least errors are 1.25e-2 and 1.6e-4: the target is 1.25e-2, for which `slow` needs 1/50 (1e-2).
-TEST(Refinements, EqualAccuracyAsksForWhatEveryEngineReaches) {
+TEST(Refinements, EqualAccuracyIsTheBestThatEveryEngineReaches) {
     const auto rows = fairComparisons(twoEngines());
     const auto& fast = find(rows, "equal_accuracy", "fast");
     const auto& slow = find(rows, "equal_accuracy", "slow");

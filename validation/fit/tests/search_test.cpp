@@ -49,9 +49,9 @@ class Rough {
 };
 
 LossFunction counting(const Rough& rough, int& points) {
-    return [&](const std::vector<FitPoint>& asked) -> std::optional<std::vector<Losses>> {
+    return [&](const std::vector<FitPoint>& requested) -> std::optional<std::vector<Losses>> {
         std::vector<Losses> all;
-        for (const FitPoint& p : asked) {
+        for (const FitPoint& p : requested) {
             all.push_back(rough(p));
             ++points;
         }
@@ -77,9 +77,10 @@ TEST(Search, FindsASmoothMinimumWithinItsBudget) {
 }
 
 TEST(Search, OneParameterAndThree) {
-    const LossFunction valley = [](const std::vector<FitPoint>& asked) -> std::optional<std::vector<Losses>> {
+    const LossFunction valley =
+        [](const std::vector<FitPoint>& requested) -> std::optional<std::vector<Losses>> {
         std::vector<Losses> all;
-        for (const FitPoint& p : asked) {
+        for (const FitPoint& p : requested) {
             double sum = 0.0;
             for (std::size_t i = 0; i < p.size(); ++i) sum += std::abs(p[i] - 0.2 - 0.3 * i);
             all.push_back(Losses(5, sum));
@@ -95,9 +96,10 @@ TEST(Search, OneParameterAndThree) {
 }
 
 TEST(Search, AMinimumAtTheEdgeOfTheBoxStaysInIt) {
-    const LossFunction slope = [](const std::vector<FitPoint>& asked) -> std::optional<std::vector<Losses>> {
+    const LossFunction slope =
+        [](const std::vector<FitPoint>& requested) -> std::optional<std::vector<Losses>> {
         std::vector<Losses> all;
-        for (const FitPoint& p : asked) {
+        for (const FitPoint& p : requested) {
             EXPECT_TRUE(p[0] >= 0.0 && p[0] <= 1.0 && p[1] >= -2.0 && p[1] <= 2.0);
             all.push_back(Losses(9, p[0] - p[1]));
         }
@@ -110,9 +112,9 @@ TEST(Search, AMinimumAtTheEdgeOfTheBoxStaysInIt) {
 TEST(Search, RunsThatBreakAreAvoided) {
     const Rough smooth(9, 0.0, 0.0, 1);
     const LossFunction losses =
-        [&](const std::vector<FitPoint>& asked) -> std::optional<std::vector<Losses>> {
+        [&](const std::vector<FitPoint>& requested) -> std::optional<std::vector<Losses>> {
         std::vector<Losses> all;
-        for (const FitPoint& p : asked) {
+        for (const FitPoint& p : requested) {
             all.push_back(smooth(p));
             if (p[0] < 0.45)
                 all.back()[3] = std::numeric_limits<double>::infinity();  // one recording of nine

@@ -104,17 +104,17 @@ TEST(BenchStore, EveryFieldSurvives) {
     const TemporaryFolder folder;
     RunWriter writer(folder.path(), false);
     writer.writeHeader(sample::header());
-    const Bench asked = bench();
-    writer.writeBenchPlan(asked);
+    const Bench written = bench();
+    writer.writeBenchPlan(written);
     writer.writeBenchRepetition("b", repetition(1));
     writer.writeBenchRepetition("b", repetition(0));
-    writer.writeBenchAnalysis(asked);
-    writer.writeBenchAnalysis(asked);  // replaced, not added
+    writer.writeBenchAnalysis(written);
+    writer.writeBenchAnalysis(written);  // replaced, not added
     const Bench read = readRun(folder.path()).bench;
-    EXPECT_EQ(read.settings, asked.settings);
+    EXPECT_EQ(read.settings, written.settings);
     ASSERT_EQ(read.cases.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
-        const BenchCase &a = asked.cases[i], &b = read.cases[i];
+        const BenchCase &a = written.cases[i], &b = read.cases[i];
         EXPECT_EQ(std::tie(a.id, a.position, a.part, a.name, a.engine, a.sizeUnit, a.size, a.threads,
                            a.operation, a.command, a.parameters),
                   std::tie(b.id, b.position, b.part, b.name, b.engine, b.sizeUnit, b.size, b.threads,
@@ -127,7 +127,7 @@ TEST(BenchStore, EveryFieldSurvives) {
     expectSame(repetition(1), read.cases[1].repetitions[1]);
     ASSERT_EQ(read.changes.size(), 2u);  // changes are in the order of the plan
     EXPECT_EQ(read.changes[0].reason, "crashed");
-    const BenchChange &c = asked.changes[0], &d = read.changes[1];
+    const BenchChange &c = written.changes[0], &d = read.changes[1];
     EXPECT_EQ(std::tie(c.caseId, c.before, c.after, c.ratio, c.low, c.high, c.p, c.verdict, c.reason),
               std::tie(d.caseId, d.before, d.after, d.ratio, d.low, d.high, d.p, d.verdict, d.reason));
 }
@@ -136,17 +136,17 @@ TEST(BenchStore, RepetitionsStayWithTheirCases) {
     const TemporaryFolder folder;
     RunWriter writer(folder.path(), false);
     writer.writeHeader(sample::header());
-    Bench asked = bench();
-    writer.writeBenchPlan(asked);
+    Bench written = bench();
+    writer.writeBenchPlan(written);
     writer.writeBenchRepetition("a", repetition(0));
     writer.writeBenchRepetition("b", repetition(0));
     BenchRepetition again = repetition(0);
     again.wall = 5.0;
     again.counts.clear();
     writer.writeBenchRepetition("b", again);
-    asked.cases.erase(asked.cases.begin());  // another plan, without "a"
-    asked.cases[0].command = "./rigor bench other";
-    writer.writeBenchPlan(asked);
+    written.cases.erase(written.cases.begin());  // another plan, without "a"
+    written.cases[0].command = "./rigor bench other";
+    writer.writeBenchPlan(written);
     const Bench read = readRun(folder.path()).bench;
     ASSERT_EQ(read.cases.size(), 1u);
     EXPECT_EQ(read.cases[0].id, "b");

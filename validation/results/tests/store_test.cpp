@@ -139,17 +139,18 @@ std::string refusal(Work work) {
 
 TEST(Store, EveryFieldSurvivesBitForBit) {
     const TemporaryFolder folder;
-    const auto asked = header();
+    const auto written = header();
     {
         RunWriter writer(folder.path() / "run", false);
-        writer.writeHeader(asked);
+        writer.writeHeader(written);
         writer.writeCase(caseRow("a", 0));
         writer.finish("2026-01-01T00:01:00Z");
     }
     const auto read = readRun(folder.path() / "run");
     EXPECT_EQ(read.schemaVersion, kSchemaVersion);
-    EXPECT_EQ(std::tie(read.suite, read.command, read.started, read.plannedCases, read.environment),
-              std::tie(asked.suite, asked.command, asked.started, asked.plannedCases, asked.environment));
+    EXPECT_EQ(
+        std::tie(read.suite, read.command, read.started, read.plannedCases, read.environment),
+        std::tie(written.suite, written.command, written.started, written.plannedCases, written.environment));
     EXPECT_EQ(read.finished, "2026-01-01T00:01:00Z");
     ASSERT_EQ(read.engines.size(), 2u);
     EXPECT_EQ(read.engines[0].buildNotes, "flags");
@@ -158,7 +159,7 @@ TEST(Store, EveryFieldSurvivesBitForBit) {
     EXPECT_EQ(read.engines[1].problem, "not installed");
     EXPECT_EQ(read.engines[0].capabilities, R"({"capabilities":{"planar":true}})");
     ASSERT_EQ(read.scenarios.size(), 1u);
-    const ScenarioRow &s = asked.scenarios[0], &r = read.scenarios[0];
+    const ScenarioRow &s = written.scenarios[0], &r = read.scenarios[0];
     EXPECT_EQ(
         std::tie(s.name, s.title, s.description, s.source, s.isolates, s.tags, s.observed, s.metrics,
                  s.dimension, s.duration, s.timeSteps, s.reference, s.referenceTitle, s.referenceFormula,
@@ -235,16 +236,16 @@ Run analysed() {
 }
 
 void expectAnalysed(const Run& read) {
-    const Run asked = analysed();
+    const Run written = analysed();
     ASSERT_EQ(read.orders.size(), 2u);
     ASSERT_EQ(read.fairness.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
-        const OrderRow &a = asked.orders[i], &b = read.orders[i];
+        const OrderRow &a = written.orders[i], &b = read.orders[i];
         EXPECT_EQ(std::tie(a.scenario, a.spec, a.metric, a.unit, a.order, a.low, a.high, a.points, a.finest,
                            a.coarsest, a.note),
                   std::tie(b.scenario, b.spec, b.metric, b.unit, b.order, b.low, b.high, b.points, b.finest,
                            b.coarsest, b.note));
-        const FairnessRow &f = asked.fairness[i], &g = read.fairness[i];
+        const FairnessRow &f = written.fairness[i], &g = read.fairness[i];
         EXPECT_EQ(std::tie(f.mode, f.scenario, f.metric, f.unit, f.competitor, f.caseId, f.spec, f.dt,
                            f.error, f.cost, f.limit),
                   std::tie(g.mode, g.scenario, g.metric, g.unit, g.competitor, g.caseId, g.spec, g.dt,

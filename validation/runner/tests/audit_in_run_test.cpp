@@ -154,7 +154,7 @@ TEST_F(InRun, ForgottenAndInvented) {
 }
 
 /// No result is given for frames whose contacts were not stored.
-TEST_F(InRun, FramesWithoutStoredContactsAreNotAsked) {
+TEST_F(InRun, FramesWithoutStoredContactsAreNotQueried) {
     file_.contactStride = 4;
     std::erase_if(file_.contacts,
                   [](const ContactSample& c) { return std::lround(c.time / kStep) % 4 != 0; });
@@ -164,7 +164,7 @@ TEST_F(InRun, FramesWithoutStoredContactsAreNotAsked) {
 }
 
 /// Several steps between frames change nothing: contacts belong to the poses of the frame they are stored at.
-TEST_F(InRun, FramesSeveralStepsApartAreAsked) {
+TEST_F(InRun, FramesSeveralStepsApartAreQueried) {
     file_.stride = 3;
     const auto row = audited();
     EXPECT_GT(row.overlapping, 10);
@@ -218,7 +218,7 @@ TEST_F(InRun, ContactsOfAnUnknownInstantAreNotJudged) {
     const auto row = inRunRow(scenario_, found);
     EXPECT_EQ(row.queries, 0);
     EXPECT_NE(row.note, "");
-    EXPECT_GT(oracleRow(found).queries, 0) << "the poses are asked about all the same";
+    EXPECT_GT(oracleRow(found).queries, 0) << "the poses are queried all the same";
 }
 
 }  // namespace

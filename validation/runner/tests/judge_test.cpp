@@ -156,7 +156,7 @@ TEST(CaseVerdict, TheWorstMetricDecides) {
     EXPECT_EQ(row.reason, "energy misses its bound");
 }
 
-TEST(CaseVerdict, WhatWasBuiltMustBeWhatWasAskedFor) {
+TEST(CaseVerdict, TheBuiltWorldMustBeTheRequestedOne) {
     results::CaseRow row;
     row.engine = "ode";
     row.readBack = {{"mass", "block", 2.0, 2.0, 0.0, true}, {"inertia", "block", 1.0, 3.0, 2.0, false}};

@@ -101,7 +101,7 @@ TEST_F(Orders, AreNotCountedTwice) {
     EXPECT_FALSE(positionFinal(alone).orderMin || positionFinal(alone).orderCount);
 }
 
-TEST_F(Orders, AreNotRunUnlessAskedFor) {
+TEST_F(Orders, AreNotRunUnlessRequested) {
     const auto row =
         run(plan({threeBodies()}, "double_order_dependent:preset=default"), options()).cases.at(0);
     EXPECT_FALSE(row.orders.run || row.orders.completed);

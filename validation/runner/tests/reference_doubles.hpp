@@ -24,9 +24,9 @@ namespace rigor::doubles {
 }
 
 /// Reference at rest for ever; it fails when it is evaluated in the first half of the run.
-class BreaksWhenAsked final : public validation::Reference {
+class FailsWhenEvaluated final : public validation::Reference {
   public:
-    BreaksWhenAsked(double duration, void (*fault)()) : duration_(duration), fault_(fault) {}
+    FailsWhenEvaluated(double duration, void (*fault)()) : duration_(duration), fault_(fault) {}
     std::vector<int> bodies() const override { return {1}; }
     validation::PartialState exact(int, double t) const override {
         if (t < 0.5 * duration_) fault_();
@@ -43,8 +43,9 @@ inline std::unique_ptr<validation::Reference> makeReference(const scenario::Scen
     if (name == "double_hangs") hang();
     if (name == "double_eats_memory") eatMemory();
     if (name == "double_crashes") std::abort();
-    if (name == "double_hangs_when_asked") return std::make_unique<BreaksWhenAsked>(s.duration, hang);
-    if (name == "double_crashes_when_asked") return std::make_unique<BreaksWhenAsked>(s.duration, std::abort);
+    if (name == "double_hangs_when_evaluated") return std::make_unique<FailsWhenEvaluated>(s.duration, hang);
+    if (name == "double_crashes_when_evaluated")
+        return std::make_unique<FailsWhenEvaluated>(s.duration, std::abort);
     return validation::makeReference(s);
 }
 

@@ -102,9 +102,10 @@ TEST_F(ReferenceGuard, ACaseRunsWithoutTheReferenceThatHangs) {
 }
 
 /// A reference may break down when a metric evaluates it, after its engine's run.
-TEST_F(ReferenceGuard, ACaseIsRepeatedWithoutTheReferenceThatBreaksWhenAsked) {
-    const std::pair<const char*, const char*> faults[] = {{"double_hangs_when_asked", "reference_timeout"},
-                                                          {"double_crashes_when_asked", "reference_crashed"}};
+TEST_F(ReferenceGuard, ACaseIsRepeatedWithoutAReferenceThatFailsWhenEvaluated) {
+    const std::pair<const char*, const char*> faults[] = {
+        {"double_hangs_when_evaluated", "reference_timeout"},
+        {"double_crashes_when_evaluated", "reference_crashed"}};
     for (const auto& [name, outcome] : faults) {
         results::Run r;
         // Making it has to end within the limit. One second is enough but for a machine with much other work.
@@ -119,7 +120,7 @@ TEST_F(ReferenceGuard, ACaseIsRepeatedWithoutTheReferenceThatBreaksWhenAsked) {
         EXPECT_EQ(c.outcome, Outcome::Completed) << name;
         EXPECT_EQ(c.verdict, Verdict::NoReference) << name;
         EXPECT_THAT(c.reason, StartsWith(outcome)) << name;
-        EXPECT_EQ(r.scenarios.at(0).referenceOutcome, "holds") << "as far as it was asked before";
+        EXPECT_EQ(r.scenarios.at(0).referenceOutcome, "holds") << "as far as it was evaluated before";
         EXPECT_FALSE(hasExact(c)) << name;
         EXPECT_EQ(c.steps, 64);
     }

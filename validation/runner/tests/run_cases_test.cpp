@@ -296,7 +296,7 @@ TEST_F(RunCases, AnInterruptedRunIsResumed) {
     EXPECT_EQ(timeless(resumed), timeless(RunCases::run(cases, options("whole"))));
 }
 
-TEST_F(RunCases, ResumingAChangedPlanForgetsWhatIsNoLongerAsked) {
+TEST_F(RunCases, ResumingAChangedPlanDropsCasesNoLongerRequested) {
     RunCases::run(plan({thrownBall("a"), thrownBall("b")}, "double_free_flight"), options());
     auto o = options();
     o.resume = true;

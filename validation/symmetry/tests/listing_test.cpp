@@ -93,7 +93,7 @@ TEST(Listing, EveryOrderIsAnotherOneOfTheSameThings) {
     EXPECT_TRUE(floorMoves && jointsMove && forcesMove && shapesMove);
 }
 
-TEST(Listing, TheKthIsTheSameHoweverManyAreAsked) {
+TEST(Listing, TheKthIsTheSameForEveryCount) {
     const Scenario s = rods();
     const auto few = otherListings(s, 3), many = otherListings(s, 20);
     for (std::size_t k = 0; k < few.size(); ++k) EXPECT_EQ(few[k], many[k]);

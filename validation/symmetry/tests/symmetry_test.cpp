@@ -58,7 +58,8 @@ Trajectory exactTrajectory(const Scenario& s, const scenario::ReferenceSpec& spe
 struct Case {
     const char* scenario;
     std::set<std::string> obstacles;  ///< symmetries it has not
-    std::set<std::string> unasked;    ///< symmetries whose transformed scenario the reference does not accept
+    std::set<std::string>
+        unsupported;  ///< symmetries whose transformed scenario the reference does not accept
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -77,7 +78,7 @@ TEST_P(ExactMotion, HasTheSymmetry) {
         if (entry.rerun != Rerun::Transformed) continue;
         SCOPED_TRACE(entry.name);
         EXPECT_EQ(!entry.obstacle(s).empty(), GetParam().obstacles.contains(entry.name)) << entry.obstacle(s);
-        if (!entry.obstacle(s).empty() || GetParam().unasked.contains(entry.name)) continue;
+        if (!entry.obstacle(s).empty() || GetParam().unsupported.contains(entry.name)) continue;
         const Transformed other = entry.apply(s, nullptr);
         const Scenario read =
             scenario::loadScenarioText(scenario::scenarioText(other.scenario), "t").scenario;

@@ -18,12 +18,12 @@ namespace rigor::engine::test {
 /// Measured properties of a solver beside its traits.
 struct MeasuredSolver {
     SolverTraits traits;       ///< iterations with relaxation; linearJointBaumgarte: any value for "rigid"
-    double contactSpring = 0;  ///< frequency for the setting kAskedContact [Hz]; 0: rigid
-    double jointSpring = 0;    ///< frequency for the setting kAskedJoint [Hz]; 0: rigid
+    double contactSpring = 0;  ///< frequency for the setting kSetContactFrequency [Hz]; 0: rigid
+    double jointSpring = 0;    ///< frequency for the setting kSetJointFrequency [Hz]; 0: rigid
     bool ownsCorrection = false;
     bool countsIterations = false;  ///< traits.iterations could be measured
 };
-inline constexpr double kAskedContact = 10, kAskedJoint = 12;
+inline constexpr double kSetContactFrequency = 10, kSetJointFrequency = 12;
 
 /// Measured properties of a law of restitution, as it declares them (solvers/restitution.hpp).
 struct MeasuredRestitution {

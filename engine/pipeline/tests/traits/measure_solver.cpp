@@ -45,7 +45,7 @@ double frequencyOf(double sag) {
 
 double contactSpring(const std::string& solver) {
     WorldDef<S> def = earthWith(solver);
-    def.contactFrequency = kAskedContact;
+    def.contactFrequency = kSetContactFrequency;
     def.contactDampingRatio = 1;
     World<S> world(def);
     addGround<S>(world, 0);
@@ -57,7 +57,7 @@ double contactSpring(const std::string& solver) {
 /// Hung up at its centre, so that the joint's rows have the mass alone.
 double jointSpring(const std::string& solver, bool curved) {
     WorldDef<S> def = earthWith(solver);
-    def.jointFrequency = kAskedJoint;
+    def.jointFrequency = kSetJointFrequency;
     def.jointDampingRatio = 1;
     def.relinearizedJoints = curved;
     World<S> world(def);
@@ -206,15 +206,16 @@ std::vector<std::string> liesOfSolver(const std::string& name) {
         if (!same) lies.emplace_back(trait);
     };
     const bool springs = declared.errors == ErrorHandling::Springs;
-    const auto near = [](double frequency, double asked) {
-        return std::abs(frequency - asked) < 0.02 * asked;
+    const auto near = [](double frequency, double requested) {
+        return std::abs(frequency - requested) < 0.02 * requested;
     };
     check("substeps", t.substeps == declared.substeps);
     check("iterations", !measured.countsIterations ||
                             t.iterations == declared.iterations.value_or(50) + declared.relaxIterations);
     check("errors", t.errors == declared.errors);
-    check("contact_frequency", !springs || near(measured.contactSpring, kAskedContact));
-    check("joint_frequency", springs ? near(measured.jointSpring, kAskedJoint) : measured.jointSpring == 0);
+    check("contact_frequency", !springs || near(measured.contactSpring, kSetContactFrequency));
+    check("joint_frequency",
+          springs ? near(measured.jointSpring, kSetJointFrequency) : measured.jointSpring == 0);
     check("linear_joint_share",
           t.linearJointBaumgarte.has_value() == declared.linearJointBaumgarte.has_value());
     check("correction", measured.ownsCorrection == (declared.errors != ErrorHandling::Correction));

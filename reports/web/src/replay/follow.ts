@@ -18,17 +18,17 @@ export function followPointer(view: ReplayView, actions: PointerActions): () => 
   const { canvas } = view;
   const leaving = new AbortController(); // the canvas may serve another view later
   const { signal } = leaving;
-  let asked = 0;
+  let requested = 0;
   let last: PointerEvent | null = null;
   const look = () => {
-    asked = 0;
+    requested = 0;
     const pick = last ? view.pick(last.clientX, last.clientY) : null;
     canvas.style.cursor = pick ? actions.cursor : '';
     actions.hover(pick);
   };
   const later = (event: PointerEvent | null) => {
     last = event;
-    if (asked === 0) asked = requestAnimationFrame(look);
+    if (requested === 0) requested = requestAnimationFrame(look);
   };
   canvas.addEventListener('pointermove', (event) => later(event.buttons === 0 ? event : null), { signal });
   canvas.addEventListener('pointerleave', () => later(null), { signal });
@@ -44,7 +44,7 @@ export function followPointer(view: ReplayView, actions: PointerActions): () => 
   canvas.addEventListener('click', click, { signal });
   return () => {
     leaving.abort();
-    cancelAnimationFrame(asked);
+    cancelAnimationFrame(requested);
   };
 }
 
@@ -52,8 +52,8 @@ export function followPointer(view: ReplayView, actions: PointerActions): () => 
 export function followTheme(view: ReplayView): () => void {
   const dark = matchMedia('(prefers-color-scheme: dark)');
   const themed = () => {
-    const asked = document.documentElement.dataset.theme;
-    view.setTheme((asked ? asked === 'dark' : dark.matches) ? darkTheme : lightTheme);
+    const requested = document.documentElement.dataset.theme;
+    view.setTheme((requested ? requested === 'dark' : dark.matches) ? darkTheme : lightTheme);
   };
   const observer = new MutationObserver(themed);
   observer.observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });

@@ -8,13 +8,13 @@ import type { ReplayView } from './view.ts';
 
 const short = (x: number) => String(Number(x.toPrecision(5)));
 
-const asked = new WeakMap<FrameSource, boolean>();
+const requested = new WeakMap<FrameSource, boolean>();
 /** True if any frame has contacts, so that their absence is reported. */
 function hasContacts(source: FrameSource): boolean {
-  let known = asked.get(source);
+  let known = requested.get(source);
   if (known === undefined) {
     known = source.events.some((event) => event.kind === 'contact_begin');
-    asked.set(source, known);
+    requested.set(source, known);
   }
   return known;
 }

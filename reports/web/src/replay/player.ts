@@ -10,7 +10,7 @@ export class Player {
   readonly #time: Observable<number>;
   readonly #changed: () => void;
   #speed = 1;
-  #asked = 0;
+  #requested = 0;
   #last = 0;
   /** Last time there is [s]. */
   end = 0;
@@ -22,7 +22,7 @@ export class Player {
   }
 
   get playing(): boolean {
-    return this.#asked !== 0;
+    return this.#requested !== 0;
   }
   get speed(): number {
     return this.#speed;
@@ -43,14 +43,14 @@ export class Player {
     if (this.playing) return;
     if (this.#time.value >= this.end - 1e-9) this.#time.set(0, this);
     this.#last = performance.now();
-    this.#asked = requestAnimationFrame(this.#tick);
+    this.#requested = requestAnimationFrame(this.#tick);
     this.#changed();
   }
 
   pause(): void {
     if (!this.playing) return;
-    cancelAnimationFrame(this.#asked);
-    this.#asked = 0;
+    cancelAnimationFrame(this.#requested);
+    this.#requested = 0;
     this.#changed();
   }
 
@@ -64,7 +64,7 @@ export class Player {
     const passed = Math.min(0.1, Math.max(0, (now - this.#last) / 1e3));
     this.#last = now;
     const time = Math.min(this.end, this.#time.value + passed * this.#speed);
-    this.#asked = requestAnimationFrame(this.#tick);
+    this.#requested = requestAnimationFrame(this.#tick);
     this.#time.set(time, this);
     if (time >= this.end) this.pause();
   };

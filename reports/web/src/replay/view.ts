@@ -96,7 +96,7 @@ export class ReplayView {
   #marked = -1;
   #glass: ReadonlySet<number> = new Set();
   #stale = true; // colours and overlays
-  #asked = 0;
+  #requested = 0;
   #width = 1;
   #height = 1;
 
@@ -279,7 +279,7 @@ export class ReplayView {
   }
 
   dispose(): void {
-    cancelAnimationFrame(this.#asked);
+    cancelAnimationFrame(this.#requested);
     this.#resize.disconnect();
     this.#rig.dispose();
     this.#dropPictures();
@@ -293,13 +293,13 @@ export class ReplayView {
 
   /** Draws before the browser shows its next picture. */
   invalidate(): void {
-    if (this.#asked === 0) this.#asked = requestAnimationFrame(() => this.draw());
+    if (this.#requested === 0) this.#requested = requestAnimationFrame(() => this.draw());
   }
 
   /** Draws now. */
   draw(): void {
-    cancelAnimationFrame(this.#asked);
-    this.#asked = 0;
+    cancelAnimationFrame(this.#requested);
+    this.#requested = 0;
     const start = performance.now();
     this.#renderer.info.reset();
     let own = 0;

@@ -241,10 +241,10 @@ describe('links of the contact audit', { skip }, () => {
     await it.open();
     const link = it.page.locator('#in-run > .scroll tbody td a').first();
     const href = (await link.getAttribute('href')) ?? '';
-    const asked = new URLSearchParams(href.split('?')[1]);
+    const requested = new URLSearchParams(href.split('?')[1]);
     const name = names.find((one) => href.includes(`/${one}?`)) ?? '';
     await link.click();
-    const [spec, step] = [asked.get('spec') ?? '', Number(asked.get('step'))];
+    const [spec, step] = [requested.get('spec') ?? '', Number(requested.get('step'))];
     const saw = await seen(spec, step);
     const states = statesOf(fileOf(name), spec, join(folder, 'clicked.csv'));
     const number = query(

@@ -159,7 +159,7 @@ describe('the report of a real run', { skip }, () => {
     it.clean();
   });
 
-  test('the curves that are asked about most are there', async () => {
+  test('the curves that are used most are there', async () => {
     await it.open('#/scenario/box_stack');
     const plots = await it.page
       .locator('#curves .chart')
@@ -193,12 +193,15 @@ describe('the report of a real run', { skip }, () => {
   test('the worst of a contact audit is three clicks away, and sets the time', async () => {
     await it.open();
     const worst = it.page.locator('#in-run tbody td a').first();
-    const asked = new URLSearchParams(((await worst.getAttribute('href')) ?? '').split('?')[1]);
+    const requested = new URLSearchParams(((await worst.getAttribute('href')) ?? '').split('?')[1]);
     await worst.click();
     await it.page.waitForSelector('#curves');
     await shown();
     const read = await it.page.locator('output.time').textContent();
-    assert.ok(Math.abs(Number(read?.match(/[\d.e-]+/)?.[0]) - Number(asked.get('t'))) < 1e-3, `${read} ${asked}`);
+    assert.ok(
+      Math.abs(Number(read?.match(/[\d.e-]+/)?.[0]) - Number(requested.get('t'))) < 1e-3,
+      `${read} ${requested}`,
+    );
     const link = it.page.locator('#case-audit a.moment').last();
     await link.click();
     const text = (await link.textContent()) ?? '';

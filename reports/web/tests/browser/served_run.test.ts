@@ -16,9 +16,9 @@ test('a recorded run is served with all its frames', { skip }, async (t) => {
   t.after(() => rmSync(folder, { recursive: true, force: true }));
   const run = join(folder, 'run');
   const program = join(process.env.RIGOR_BINARY_DIR ?? '', 'bin/rigor');
-  const asked = ['pile', '--engines', 'rigor:preset=default', '--dt', '1/60', '-q', '--out', run];
+  const requested = ['pile', '--engines', 'rigor:preset=default', '--dt', '1/60', '-q', '--out', run];
   try {
-    execFileSync(program, ['validate', ...asked], { stdio: 'ignore' });
+    execFileSync(program, ['validate', ...requested], { stdio: 'ignore' });
   } catch {
     // a missed bound is a red run, and as good a run to look at
   }

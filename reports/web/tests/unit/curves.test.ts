@@ -36,7 +36,7 @@ const cases = [
 const plots = collectCurves(cases, ['ball', 'box'], 'ball');
 const plot = (key: string) => plots.find((p) => p.key === key);
 
-test('the motion comes first, then what is asked about most', () => {
+test('the motion comes first, then the curves that are used most', () => {
   assert.deepEqual(
     plots.map((p) => p.key),
     ['p0', 'p2', 'position_error/ball', 'normal_error/', 'contact_count/'],

@@ -189,12 +189,12 @@ test('all frames of a trajectory arrive in parts', async () => {
     );
   };
   const look = { label: 'x', spec: 'x', colour: '', ghost: false, note: 'timeout, every 7 steps', events: [] };
-  const asked: number[] = [];
+  const requested: number[] = [];
   const source = await fullSource(look, async (from) => {
-    asked.push(from);
+    requested.push(from);
     return part(from, Math.min(2, frames - from));
   });
-  assert.deepEqual(asked, [0, 2, 4]);
+  assert.deepEqual(requested, [0, 2, 4]);
   assert.equal(source.note, 'timeout, every 2 steps');
   assert.equal(source.times.length, frames);
   assert.deepEqual([...(source.frame(3).position as Float64Array)], [30, 31, 32]);

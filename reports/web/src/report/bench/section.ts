@@ -80,7 +80,7 @@ function meaning(bench: Bench): Child {
       ? el(
           'p',
           null,
-          'Isolated parts are asked beside the rest of their engine: the same boxes, pairs and exported contacts for all, in the engine’s own numbers, conversions outside of the clock. ',
+          'Isolated parts run apart from the rest of their engine: the same boxes, pairs and exported contacts for all, in the engine’s own numbers, conversions outside of the clock. ',
           'What they find is checked after the clock has stopped: pairs against those of all boxes, depths against an exact oracle, impulses against the contact law. ',
           'Broad phases do their work in bursts: theirs are means over the updates of a repetition.',
         )

@@ -21,7 +21,7 @@ interface Row {
   worst: string;
 }
 
-function rowsOf(engine: Engine): { acted: Row[]; asked: Row[] } {
+function rowsOf(engine: Engine): { acted: Row[]; requested: Row[] } {
   const acted = run.scenarios.flatMap((s) =>
     s.cases
       .filter((c) => c.inRun && run.columns.some((x) => x.spec === c.spec && x.engine === engine.name))
@@ -39,7 +39,7 @@ function rowsOf(engine: Engine): { acted: Row[]; asked: Row[] } {
         };
       }),
   );
-  const asked = run.audit.flatMap((a) =>
+  const requested = run.audit.flatMap((a) =>
     a.rows
       .filter((r) => r.auditor === engine.name || r.auditor.startsWith(`${engine.name}:`))
       .map((r): Row => {
@@ -56,7 +56,7 @@ function rowsOf(engine: Engine): { acted: Row[]; asked: Row[] } {
         };
       }),
   );
-  return { acted, asked };
+  return { acted, requested };
 }
 
 const shown = 8;
@@ -101,12 +101,12 @@ function table(rows: Row[]): Child {
 }
 
 export function engineAudit(engine: Engine): HTMLElement | null {
-  const { acted, asked } = rowsOf(engine);
-  if (acted.length + asked.length === 0) return null;
+  const { acted, requested } = rowsOf(engine);
+  if (acted.length + requested.length === 0) return null;
   return panel(
     'engine-audit',
     'Contacts against the exact oracle',
     acted.length ? [el('h3', null, 'Contacts that its runs acted upon'), table(acted)] : null,
-    asked.length ? [el('h3', null, 'Asked about the poses of all runs'), table(asked)] : null,
+    requested.length ? [el('h3', null, 'Queried at the poses of all runs'), table(requested)] : null,
   );
 }

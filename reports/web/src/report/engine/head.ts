@@ -73,7 +73,7 @@ export function engineHead(engine: Engine): HTMLElement {
       : el(
           'p',
           { class: 'muted' },
-          'It has no column of its own in this run: it takes part as a collision engine, or was not asked.',
+          'It has no column of its own in this run: it takes part as a collision engine, or was not requested.',
         ),
   );
 }

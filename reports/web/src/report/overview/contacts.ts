@@ -29,7 +29,7 @@ function inRunCell(s: Scenario, column: Column): HTMLElement {
   const sum = (key: 'queries' | 'overlapping' | 'missed' | 'spurious') => seen.reduce((n, a) => n + a[key], 0);
   const wrong = sum('missed') + sum('spurious');
   if (!sum('overlapping') && !wrong)
-    return el('td', { class: 'small muted', title: `${sum('queries')} pairs asked about` }, 'no overlap');
+    return el('td', { class: 'small muted', title: `${sum('queries')} pairs queried` }, 'no overlap');
   if (!wrong && worst('normal') === null)
     return el('td', { class: 'small muted', title: 'shapes for which the oracle has no exact answer' }, 'undecided');
   const flicker = toNumber(worst('contactFlicker'));
@@ -118,8 +118,8 @@ export function contactQueries(): HTMLElement | null {
     el(
       'p',
       { class: 'muted' },
-      'At sampled frames of every run, each collision engine is asked about the same poses and compared with an exact oracle. Shown: the worst angle between ',
-      'its contact normal and the nearest exact one, and the worst penetration error below; “wrong” counts overlaps that were missed or invented. A link shows the poses asked about, with the contacts of the run, not the answer.',
+      'At sampled frames of every run, each collision engine is queried at the same poses and compared with an exact oracle. Shown: the worst angle between ',
+      'its contact normal and the nearest exact one, and the worst penetration error below; “wrong” counts overlaps that were missed or invented. A link shows the poses queried, with the contacts of the run, not the answer.',
     ),
     scroll(
       el(

@@ -33,7 +33,7 @@ export function ledgerSummary(): HTMLElement {
     el(
       'p',
       { class: 'muted' },
-      'What the scenarios asked for and an engine could not give, or gave differently. Read it before comparing two columns. ',
+      'Requests of the scenarios that an engine could not meet, or met differently. Read it before comparing two columns. ',
       `${exact} of ${run.ledger.length} entries are exact.`,
     ),
     button,

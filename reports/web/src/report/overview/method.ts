@@ -33,7 +33,7 @@ const measured: [string, string][] = [
   ],
   [
     'Contacts.',
-    'At sampled frames all collision engines and an exact oracle are asked about the same poses; the contacts that a run itself acted upon are held to the same oracle. Equally good normals count as equal.',
+    'At sampled frames all collision engines and an exact oracle are queried at the same poses; the contacts that a run itself acted upon are held to the same oracle. Equally good normals count as equal.',
   ],
   ['One process per case.', 'An engine that aborts, hangs or returns NaN costs one cell of the table.'],
   [
@@ -118,7 +118,7 @@ export function method(): HTMLElement {
         'no_reference',
         'it ran, but its reference did not finish, ran out of memory or crashed: neither a pass nor the engine’s fault',
       ),
-      verdict('fail', 'a bound of the scenario was missed, or what was built is not what was asked for'),
+      verdict('fail', 'a bound of the scenario was missed, or the built world is not the requested one'),
       verdict('non_finite', 'a state became NaN or infinite'),
       verdict('timeout', 'no end within the time limit'),
       verdict('crashed', 'the process died or ran out of memory'),

@@ -16,7 +16,7 @@ const meaning: Record<Shown, string> = {
   no_bound: 'ran',
   no_reference: 'ran, but its reference could not be computed',
   known_deviation: 'wrong physics, with a reason on file',
-  fail: 'misses a bound that its scenario sets, or was not what was asked for',
+  fail: 'misses a bound that its scenario sets, or was not as requested',
   non_finite: 'NaN or infinity',
   timeout: 'over the time limit',
   crashed: 'the process died',

@@ -65,7 +65,7 @@ function pairRow(context: Context, c: Case, a: Audit): HTMLElement {
 }
 
 const heads = [
-  'Asked',
+  'Queried',
   'Frames',
   'Pairs',
   'Overlap',
@@ -80,7 +80,7 @@ const heads = [
   'Worst at',
 ];
 const pairHeads = [
-  'Asked',
+  'Queried',
   'Poses of',
   'Pairs',
   'Overlap for both',
@@ -113,7 +113,7 @@ export function caseAudit(context: Context): HTMLElement | null {
     el(
       'p',
       { class: 'muted' },
-      'Sampled poses of the run named in the grey rows: the contacts that the run itself acted upon, and every collision engine asked about the same poses, ',
+      'Sampled poses of the run named in the grey rows: the contacts that the run itself acted upon, and every collision engine queried at the same poses, ',
       'against the exact oracle. “Worst at” shows that moment.',
     ),
     scroll(el('table', { class: 'full' }, headRow(heads, last(heads)), bodies)),

@@ -42,9 +42,9 @@ let hidden: ReadonlySet<string> = new Set(); // engines that are switched off st
 function contextOf(index: number, data: ScenarioData, query: URLSearchParams): Context {
   const scenario = run.scenarios[index] as Context['scenario'];
   const steps = [...new Set(data.cases.map((c) => c.dt))].sort((a, b) => b - a);
-  const asked = Number(query.get('dt'));
-  const dt = steps.includes(asked) ? asked : (steps.at(-1) ?? 0);
-  const step = query.has('step') && asked === dt ? Number(query.get('step')) : Number.NaN;
+  const requested = Number(query.get('dt'));
+  const dt = steps.includes(requested) ? requested : (steps.at(-1) ?? 0);
+  const step = query.has('step') && requested === dt ? Number(query.get('step')) : Number.NaN;
   const time = step >= 0 ? step * dt : Number(query.get('t') ?? 0);
   const cursor = newCursor(Math.max(0, time || 0));
   cursor.hidden.set(hidden);

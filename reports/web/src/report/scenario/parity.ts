@@ -44,7 +44,7 @@ export function parity({ cases }: Context): HTMLElement | null {
     );
   return panel(
     'parity',
-    'Parity: asked for and given',
+    'Parity: requested and realised',
     rows.length
       ? others.length
         ? scroll(ledgerTable(others, 'Engine'))
