@@ -3,8 +3,8 @@
 //
 // Two posed shapes through Box2D's own functions. Both are moved near the origin in double precision first
 // and scaled so that the larger bounded one spans a few lengths, where floats and Box2D's tolerances (welding
-// 2.5 mm, face preference 0.5 mm) matter least. Polygons get no skin: with a radius of 0 the answer is that
-// of the true surfaces. A capsule is b2Distance's segment with a radius; Box2D has no answer once the other
+// 2.5 mm, face preference 0.5 mm) matter least. Polygons get no skin: with a radius of 0 the result is that
+// of the true surfaces. A capsule is b2Distance's segment with a radius; Box2D has no result once the other
 // shape reaches its core.
 #include "adapters/box2d/collision.hpp"
 
@@ -270,7 +270,8 @@ Closest closestPoints(const Side& a, const Side& b, const Frame& frame) {
     return closest;
 }
 
-/// Contacts of two sides into `answer`, and their closest points where they are nearer than what it has.
+/// Adds the contacts of two sides to `answer`, and their closest points where they are nearer than what it
+/// has.
 void runQuery(const Side& a, const Side& b, const Frame& frame, CollisionAnswer& answer) {
     const Closest closest = closestPoints(a, b, frame);
     if (a.capsule || b.capsule) {

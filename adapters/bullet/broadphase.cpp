@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Bullet's broad phases as sets of boxes. All of them answer conservatively (fattened, quantised or stale
-// pairs).
+// Bullet's broad phases as sets of boxes. All of them are conservative (fattened, quantised or stale pairs).
 #include "adapters/bullet/broadphase.hpp"
 
 #include <btBulletCollisionCommon.h>

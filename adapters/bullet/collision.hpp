@@ -7,7 +7,7 @@
 namespace rigor::bullet {
 
 /// Bullet's narrow phase by itself: the algorithms that stepping uses, on two posed shapes. Two-dimensional
-/// queries are answered by prisms.
+/// queries are computed with prisms.
 class BulletCollisionEngine final : public adapter::TimedCollisionEngine {
   public:
     adapter::CollisionAnswer collide(const adapter::CollisionQuery& query) const override;

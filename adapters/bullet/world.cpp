@@ -29,7 +29,7 @@ using adapter::Scenario;
 using adapter::Settings;
 using scenario::BodyType;
 
-/// Answers Bullet's question whether two overlapping boxes are a pair at all.
+/// Decides for Bullet whether two overlapping boxes are a pair.
 class BulletWorld::PairFilter final : public btOverlapFilterCallback {
   public:
     explicit PairFilter(const adapter::PairTable& table) : table_(table) {}

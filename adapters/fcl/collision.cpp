@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Two questions per query. fcl::collide gives contacts: by closed forms, by SAT with clipping for boxes, by
-// libccd's MPR for the rest. MPR's depths of hulls are off by more than 1% in one pair of twenty, so those
-// are taken from the signed distance of libccd's EPA, exact to rounding for polytopes. Shapes that are apart
-// have their distance from GJK.
+// Two calls of the library per query. fcl::collide gives contacts: by closed forms, by SAT with clipping for
+// boxes, by libccd's MPR for the rest. MPR's depths of hulls are off by more than 1% in one pair of twenty,
+// so those are taken from the signed distance of libccd's EPA, exact to rounding for polytopes. Shapes that
+// are apart have their distance from GJK.
 #include "adapters/fcl/collision.hpp"
 
 #include <fcl/narrowphase/collision.h>
@@ -125,7 +125,7 @@ double deepest(const fcl::CollisionResultd& result) {
     return depth;
 }
 
-/// Adds the signed distance to an answer of fcl::collide, and the contact of overlapping polytopes.
+/// Adds the signed distance to a result of fcl::collide, and the contact of overlapping polytopes.
 void answerDistance(const FclShape& a, const FclShape& b, bool unbounded, bool exactInside, double depth,
                     fcl::GJKSolverType solver, CollisionAnswer& answer) {
     std::optional<Separation> found;

@@ -14,7 +14,7 @@ struct SurfacePoints {
 
 /// The points on the surfaces of A and B for a contact whose library gave `reported` somewhere on the line
 /// between them (on A, on B or in the middle, or somewhere near), the unit `normal` from A to B and the
-/// penetration `depth`. Spheres are answered in closed form; else the candidate on that line whose ends lie
+/// penetration `depth`. Spheres are computed in closed form; else the candidate on that line whose ends lie
 /// nearest to the surfaces is taken.
 SurfacePoints surfacePoints(const PosedShape& a, const PosedShape& b, const Vec3& reported,
                             const Vec3& normal, double depth);

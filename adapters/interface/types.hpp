@@ -101,7 +101,7 @@ struct Capabilities {
     /// "fixed.break", ...
     std::vector<std::string> joints;
     bool contactImpulses = false;
-    bool signedDistance = false;  ///< CollisionEngine answers for separated shapes too
+    bool signedDistance = false;  ///< CollisionEngine gives the distance of separated shapes too
     /// Keys of options that collision queries heed, `narrow_phase` apart.
     std::vector<std::string> queryOptions;
     bool kinematicBodies = false, damping = false, gravityScale = false, centerOfMassOffset = false;
@@ -164,7 +164,7 @@ struct CollisionQuery {
     const Settings* settings = nullptr;
 };
 
-/// Answer to a query. Contacts have depth > 0 (or the engine's own tolerance); bodyA/bodyB are 0 and 1.
+/// Result of a query. Contacts have depth > 0 (or the engine's own tolerance); bodyA/bodyB are 0 and 1.
 struct CollisionAnswer {
     bool overlap = false;
     std::vector<ContactPoint> contacts;

@@ -6,7 +6,7 @@
 
 namespace rigor::ode {
 
-/// dCollide on two geoms. No distances: ODE answers for overlapping shapes only.
+/// dCollide on two geoms. No distances: ODE gives results for overlapping shapes only.
 class OdeCollisionEngine final : public adapter::TimedCollisionEngine {
   public:
     adapter::CollisionAnswer collide(const adapter::CollisionQuery& query) const override;

@@ -29,7 +29,7 @@ json collideJson(const std::string& arguments, int code = 0) {
     return json::parse(result.out);
 }
 
-/// The answers of the files follow by hand: the in-house engine gives them, and so does the oracle.
+/// The results of the files follow by hand: the in-house engine gives them, and so does the oracle.
 TEST(CollideCommand, InHouseEngineIsRightOnTheSuite) {
     const json out = collideJson("--suite --engines rigor");
     EXPECT_EQ(out.at("green"), true);
@@ -131,7 +131,7 @@ TEST(CollideCommand, BadInputIsSaid) {
     EXPECT_NE(result.out.find("expected"), std::string::npos) << result.out;
 }
 
-/// Published and generated queries with known answers, where they are installed.
+/// Published and generated queries with known results, if they are installed.
 TEST(CollideCommand, GeneratedPolytopePairs) {
     const char* data = std::getenv("RIGOR_DATA");
     const auto file =

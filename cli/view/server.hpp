@@ -16,7 +16,7 @@ class Server {
     /// Listens on `port` of 127.0.0.1 alone; 0: any that is free. Throws std::runtime_error. The site has to
     /// live longer.
     Server(Site& site, int port);
-    /// Stops and waits for the answers that are under way.
+    /// Stops and waits for the responses that are under way.
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;

@@ -35,7 +35,7 @@ class Site {
     virtual Reply answer(const Request& request) = 0;
     /// Sent with every response.
     virtual std::string contentSecurityPolicy() const = 0;
-    /// Ends the requests that wait for an answer.
+    /// Ends the requests that wait for a response.
     virtual void close() {}
 };
 

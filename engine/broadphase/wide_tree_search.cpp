@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The search of wide_tree.cpp: the tree against itself, one box against the eight of a node at a time.
-// Comparisons alone, so that every instruction set gives the same answer.
+// Comparisons alone, so that every instruction set gives the same result.
 #include "engine/broadphase/wide_tree_search.hpp"
 
 #undef HWY_TARGET_INCLUDE

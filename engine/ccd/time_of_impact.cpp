@@ -22,8 +22,8 @@
 // Shapes that part while they are still close would take ever so many steps of d / mu; they take steps of a
 // sixteenth of their thickness, and if that leads to a meeting its time is bisected.
 //
-// Cost: one closest-points query per step, 2 to 10 mostly. Limit: kMaxSteps, then the time reached
-// is the answer, with converged = false: nothing has been missed until then.
+// Cost: one closest-points query per step, 2 to 10 mostly. Limit: kMaxSteps, then the time reached is the
+// result, with converged = false: nothing has been missed until then.
 #include "engine/ccd/time_of_impact.hpp"
 
 #include <algorithm>

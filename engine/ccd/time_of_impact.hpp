@@ -20,7 +20,7 @@ struct TimeOfImpact {
     Real approach = 0;         ///< closing speed of the closest points then [m/s], > 0 if converged
     ClosestPoints<S> closest;  ///< closest points at `time`
     int evaluations = 0;       ///< distance queries
-    bool converged = true;     ///< false: gave up; the answer is the last safe time
+    bool converged = true;     ///< false: gave up; the result is the last safe time
 };
 
 /// Gap that counts as touching for two shapes near `scale` [m] from the origin: far below their thickness,

@@ -8,7 +8,7 @@
 //
 // Ends when the bounds meet within a few roundings of |v|, when the support point is known already, or when
 // |v| has not fallen for a few steps: then nothing is left but rounding, and the step with the least gap is
-// the answer. No looser tolerance: the error of the normal grows as the square root of the gap over the
+// the result. No looser tolerance: the error of the normal grows as the square root of the gap over the
 // distance. A distance below the rounding of D's own coordinates counts as overlap, and EPA decides. Cost: a
 // few support points for polytopes; linear convergence on curved shapes.
 #include "engine/narrowphase/minkowski.hpp"

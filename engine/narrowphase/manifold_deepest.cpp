@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The deepest point alone: what a first engine does with the answer of GJK, EPA or SAT. Enough for spheres; a
+// The deepest point alone: a first engine does so with the result of GJK, EPA or SAT. Enough for spheres; a
 // box at rest has nothing to keep it from tipping about its point, which jumps from corner to corner. The
 // first of equally deep points is kept.
 #include "engine/narrowphase/manifolds.hpp"

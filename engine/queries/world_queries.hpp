@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Questions to a world that is not being stepped: what does a ray meet, where does a moved shape touch first,
+// Queries to a world that is not being stepped: what does a ray meet, where does a moved shape touch first,
 // what overlaps, what is nearest.
 //
 //   WorldQueries<Space3d> queries(world);
 //   if (const auto hit = queries.castRay({0, 5, 0}, {0, -10, 0})) use(hit->body, hit->point, hit->normal);
 //
 // Making one builds a tree over the boxes of all shapes where the bodies are now: O(n log n), once for any
-// number of questions; it is stale after the next step or change of the world. All bodies are searched, those
+// number of queries; it is stale after the next step or change of the world. All bodies are searched, those
 // without contacts too; `filter` may leave some out. Ties go to the shape added first.
 #pragma once
 

@@ -7,7 +7,8 @@
 // All three have the same members, so that code is written once over them:
 //   pieceCount(); corners(piece): vertex numbers; point(vertex); piece(i): the Segment or Triangle;
 //   across(piece, side): the vertex beyond side `side` (from corner `side` to the next) of the piece,
-//     kNullIndex at an open border; in 2D side 0, 1 is the end at corner 0, 1 and the answer the vertex beyond it;
+//     kNullIndex at an open border; in 2D side 0, 1 is the end at corner 0, 1 and the result the vertex
+//     beyond it;
 //   ring(vertex, visit): the vertices that share an edge with it (2D: the chain's next ones);
 //   query(box, visit), ray(o, d, limit, visit): pieces near; frame of the shape.
 #pragma once

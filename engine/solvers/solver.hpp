@@ -51,7 +51,7 @@ class IterationMonitor {
 template <class S>
 struct SolverInput {
     using Real = typename S::Real;
-    ConstraintRows<S>& constraints;     ///< impulses hold the warm start, and the answer afterwards
+    ConstraintRows<S>& constraints;     ///< impulses hold the warm start, and the solution afterwards
     std::span<Velocity<S>> velocities;  ///< velocities by dense body index; changed in place
     FrictionLaw<S> friction;
     IterationMonitor<S>& monitor;  ///< called around each iteration
@@ -108,7 +108,7 @@ using SolverFactory = std::unique_ptr<Solver<S>> (*)();
 template <class S>
 std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable();
 
-/// Friction of a contact: the law with the limit of sliding, or its answer with the limit of sticking where
+/// Friction of a contact: the law with the limit of sliding, or its solution with the limit of sticking where
 /// that is inside the limit. `impulse` is the tangents' accumulated impulse, `velocity` what it has led to.
 template <class S>
 Eigen::Matrix<typename S::Real, 2, 1> contactFriction(FrictionLaw<S> law, const Block<S>& block,

@@ -77,7 +77,7 @@ struct Ranking {
     int scenarios = 0;            ///< number of scenarios that it could take part in
     int lost = 0;                 ///< crashed, timed out, not finite or failed, at any time step
     std::array<int, 5> grades{};  ///< scenarios of grade A to E
-    int ungraded = 0;             ///< ran, without an exact answer
+    int ungraded = 0;             ///< ran, without an exact solution
     int known = 0;                ///< wrong physics with a reason on file
     int farther = 0;              ///< farther from the exact solution than its own scheme
     int red = 0;                  ///< scenarios with a red case at any time step

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Files of collision queries: two posed shapes each, with the exact answer where the file knows it. Two
-// formats: Rigor's format (JSON, collision.schema.json) and one query per line (JSON lines) as collections of
-// known answers are published.
+// Files of collision queries: two posed shapes each, with the exact result if the file has it. Two formats:
+// Rigor's format (JSON, collision.schema.json) and one query per line (JSON lines) as collections of known
+// results are published.
 #pragma once
 
 #include <filesystem>

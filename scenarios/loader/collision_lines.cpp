@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Queries with known answers, one JSON object per line:
+// Queries with known results, one JSON object per line:
 //
 //   id              any text
 //   a, b            {type: sphere, radius} {type: box, half} {type: capsule|cylinder|cone, radius,

@@ -22,7 +22,7 @@ namespace {
 
 using namespace scenario;
 
-constexpr int kSamples = 512;  // evenly over the time that the exact solution answers for
+constexpr int kSamples = 512;  // evenly over the time for which the exact solution is valid
 // motion relative to Size or 1 rad; smaller ones are rounding of the reference
 constexpr double kMoves = 1e-9;
 constexpr double kRestsBeside = 1e-6;  // kinetic energy beside the weights: below it the scene rests

@@ -53,7 +53,7 @@ BenchCase caseOf(const PlannedBench& p, std::int64_t position) {
     return c;
 }
 
-/// The repetition of a child that gave no answer.
+/// The repetition of a child that gave no result.
 BenchRepetition failed(const ProcessResult& result, const PlannedBench& planned) {
     BenchRepetition r;
     if (result.timedOut) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Queries of one engine, case by case. Every answer is written before the next question, so that a library
-// that ends the process costs one answer; an alarm ends a query that hangs.
+// Queries of one engine, case by case. Every result is written before the next query, so that a library that
+// ends the process costs one result; an alarm ends a query that hangs.
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>

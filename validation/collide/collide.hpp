@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Collision queries put to every collision engine and to the exact oracle, and what the answers are worth.
+// Collision queries passed to every collision engine and to the exact oracle, and the judgement of the
+// results.
 #pragma once
 
 #include <atomic>
@@ -25,7 +26,7 @@ struct CollideTolerance {
     double angle = 1e-6;  ///< angle of the normal from the nearest minimiser [rad]
 };
 
-/// Judgement of one answer. Order: the first that applies.
+/// Judgement of one result. Order: the first that applies.
 enum class CollideVerdict {
     Ok,
     WrongOverlap,  ///< says apart where they overlap, or the reverse
@@ -39,7 +40,7 @@ enum class CollideVerdict {
     Timeout
 };
 const char* collideVerdictName(CollideVerdict verdict);  ///< "ok", "wrong overlap", ...
-/// The engine gave an answer that is wrong, or none where it should have.
+/// The result of the engine is wrong, or missing where there should be one.
 bool isFailure(CollideVerdict verdict);
 
 /// Exact results of a case, known before any engine is queried.
@@ -54,7 +55,7 @@ struct CollideTruth {
                            ///< agree
 };
 
-/// One engine's answer to one case.
+/// One engine's result for one case.
 struct CollideAnswer {
     CollideVerdict verdict = CollideVerdict::Undecided;
     bool answered = false;
@@ -127,7 +128,7 @@ std::vector<adapter::EngineSpec> allCollisionSpecs(const std::filesystem::path& 
 /// of the spec.
 void checkCollisionSpec(const adapter::EngineSpec& spec, const std::filesystem::path& binary);
 
-/// Queries all specs and the oracle. `onProgress` gets (answered, total) from time to time.
+/// Queries all specs and the oracle. `onProgress` gets (finished, total) from time to time.
 CollideRun runCollide(const std::vector<scenario::CollisionFile>& files,
                       const std::vector<adapter::EngineSpec>& specs, const CollideOptions& options,
                       const std::function<void(std::int64_t, std::int64_t)>& onProgress,
@@ -135,10 +136,10 @@ CollideRun runCollide(const std::vector<scenario::CollisionFile>& files,
 
 /// The truth of one case: the oracle's where it has the shapes, else the file's.
 CollideTruth truthOf(const scenario::CollisionCase& c, const CollideTolerance& tolerance);
-/// Sets errors and verdict of an answer from the truth.
+/// Sets errors and verdict of a result from the truth.
 void judgeAnswer(const scenario::CollisionCase& c, const CollideTruth& truth,
                  const CollideTolerance& tolerance, CollideAnswer& answer);
-/// Tallies the answers of one spec.
+/// Counts the results of one spec.
 CollideSummary summarise(const CollideRun& run, std::size_t spec);
 
 /// Counts by first tag, in the order of their first occurrence; cases without a tag do not count.

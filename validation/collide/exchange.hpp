@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Answers as they pass between this program and the children that load engines.
+// Results as they pass between this program and the children that load engines.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,7 +10,7 @@
 
 namespace rigor::validation {
 
-/// An answer without its judgement.
+/// A result without its judgement.
 nlohmann::json answerToJson(const CollideAnswer& answer);
 CollideAnswer answerFromJson(const nlohmann::json& json);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Truth and judgement of collision answers.
+// Truth and judgement of collision results.
 //
 //   overlap   wrong where sd < -touch is called apart or sd > touch is called overlapping
 //   depth     |found - sd| <= max(touch, relative |sd|) (+ the accuracy of a value that comes from the file)

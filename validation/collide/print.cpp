@@ -150,7 +150,7 @@ std::vector<std::vector<std::string>> summaryRows(const CollideRun& run) {
     return rows;
 }
 
-/// Wrong of answered (and lost) answers by kind; nothing where there are too many kinds or only one.
+/// Wrong, all and lost results by kind; nothing where there are too many kinds or only one.
 std::vector<std::vector<std::string>> kindRows(const CollideRun& run) {
     const std::vector<CollideKind> kinds = countKinds(run);
     if (kinds.size() < 2 || kinds.size() > 16) return {};

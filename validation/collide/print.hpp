@@ -15,8 +15,8 @@ namespace rigor::validation {
 /// Everything that is known, every double with its round-trip digits.
 nlohmann::ordered_json collideJson(const CollideRun& run);
 
-/// One line per case and engine, then one per engine. `all`: also the right answers, however many; otherwise
-/// the wrong ones when there are more than a page of answers.
+/// One line per case and engine, then one per engine. `all`: also the right results, however many; otherwise
+/// the wrong ones when there are more than a page of results.
 std::string collideText(const CollideRun& run, bool all);
 
 /// Writes collide.json, collide.csv and summary.md. Throws std::runtime_error.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Pairs at a given signed distance are made from the exact answer of any overlap: moved by t along a
+// Pairs at a given signed distance are made from the exact result for any overlap: moved by t along a
 // minimising normal, B is exactly t nearer to separation, whatever t >= 0 (no other direction gains more).
 #include "validation/collide/random_pairs.hpp"
 

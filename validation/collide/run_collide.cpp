@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The parent's side: the oracle on threads of this process, every engine in children with a chunk of cases
-// each. A child that ends early has written its answers up to the case that ended it: that one is recorded as
+// each. A child that ends early has written its results up to the case that ended it: that one is recorded as
 // crashed or timed out, and another child goes on behind it.
 #include <sys/wait.h>
 
@@ -29,7 +29,7 @@ constexpr std::size_t kMemoryMiB = 4096;  ///< memory limit per child
 constexpr double kChunkSeconds = 3600.0;  ///< the alarm of each query comes long before
 constexpr const char* kAlgorithmKey = "narrow_phase";
 
-/// Answers of a child, in the order of its cases.
+/// Results of a child, in the order of its cases.
 std::vector<CollideAnswer> readAnswers(const fs::path& file) {
     std::vector<CollideAnswer> answers;
     for (const json& value : readJsonLines(file)) answers.push_back(answerFromJson(value));
@@ -96,7 +96,7 @@ class QueryRunner {
         for (CollideAnswer& answer : answers) put(spec, first++, std::move(answer));
         if (first < last) {
             put(spec, first++, lostAnswer(result));
-            // A child that never got to its first answer will not do better for the others.
+            // A child that never got to its first result will not do better for the others.
             const bool neverStarted = answers.empty() && result.exitedWith(1);
             while (neverStarted && first < last) put(spec, first++, lostAnswer(result));
             queue(spec, first, last);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// One engine run case by case. Every answer is written before the next case begins, so that a library that
-// ends the process costs one answer; an alarm ends a case that hangs.
+// One engine run case by case. Every result is written before the next case begins, so that a library that
+// ends the process costs one result; an alarm ends a case that hangs.
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 

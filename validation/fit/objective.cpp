@@ -91,7 +91,7 @@ class Batch {
             any = true;
         }
         if (first < last) {
-            // A child that never got to its first answer will not do better for the others.
+            // A child that never got to its first result will not do better for the others.
             const bool neverStarted = !any && result.exitedWith(1);
             const std::string said =
                 neverStarted ? result.outputTail.substr(0, result.outputTail.find('\n')) : endingOf(result);

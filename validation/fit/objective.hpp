@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The metrics of one engine over many scenarios at many points: children answer some hundred cases each, so
+// The metrics of one engine over many scenarios at many points: children compute some hundred cases each, so
 // that starting a process costs little; one that ends early costs the case that ended it.
 #pragma once
 

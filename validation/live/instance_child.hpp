@@ -8,7 +8,7 @@
 
 namespace rigor::validation {
 
-/// Answers the packets of the socket with that number, each with one, until it is closed. Returns the exit
+/// Responds to each packet of the socket with that number by one packet, until it is closed. Returns the exit
 /// code.
 int instanceChild(const std::filesystem::path& fileNumber);
 

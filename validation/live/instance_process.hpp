@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The child process of an instance, seen from its parent: one question, one answer, a deadline for each.
+// The child process of an instance, seen from its parent: one request, one response, a deadline for each.
 #pragma once
 
 #include <atomic>
@@ -30,7 +30,7 @@ class InstanceProcess {
         std::string message;  ///< reason if it is not Done
     };
     /// Sends a request and waits for the response, at most `seconds`. Once the child has crashed or timed out
-    /// it is gone, and every answer is that.
+    /// it is gone, and every response reports that.
     Answer send(const nlohmann::json& request, double seconds);
 
     /// Ends the child, whatever it does; from any thread.

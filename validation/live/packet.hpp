@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// JSON with arrays of numbers beside it: what instances answer, and what the browser gets. Its bytes are a
-// bundle of arrays whose meta is the header.
+// JSON with arrays of numbers beside it: the responses of instances, and the data for the browser. Its bytes
+// are a bundle of arrays whose meta is the header.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -86,7 +86,7 @@ std::unique_ptr<InstanceSlot> Session::makeInstance(InstancePlan plan) {
     return std::make_unique<InstanceSlot>(std::move(plan), options_.binary, options_.limits, clock_);
 }
 
-/// Real time times the speed, but no faster than the slowest instance that answers in time.
+/// Real time times the speed, but no faster than the slowest instance that responds in time.
 void Session::advanceClock(double seconds) {
     const double wanted = seconds * speed_ / dt_;
     double slowest = std::numeric_limits<double>::infinity();

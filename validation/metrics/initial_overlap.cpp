@@ -35,7 +35,7 @@ Vec3 directionFor(const ContactPoint& contact, const Shape& a, const Pose& poseA
 }
 
 /// The deepest overlap along the contact's normal of any shape of A with any of B [m], negative when apart;
-/// empty where a pair has no exact answer.
+/// empty where a pair has no exact result.
 std::optional<double> exactDepth(const MetricInput& input, const ContactPoint& contact) {
     const auto bodyPose = [&](int body) {
         const BodyState& s = input.trajectory.state(0, body);

@@ -35,7 +35,7 @@ std::vector<int> observedDynamic(const MetricInput& input);
 bool isDynamic(const scenario::Scenario& scenario, int body);
 const std::string& bodyName(const MetricInput& input, int body);
 
-/// Number of frames that the reference answers for.
+/// Number of frames for which the reference is valid.
 std::size_t validFrames(const MetricInput& input);
 
 /// Scale of an error of the quantity: its own scale, or |expected| if it has none; 1 if both are zero.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The motion of one or more real bodies as it was recorded: the third kind of answer, neither exact nor
+// The motion of one or more real bodies as it was recorded: the third kind of solution, neither exact nor
 // scheme-exact. Its numbers are the recording, so they stand in the scenario itself: `times` [s], rising from
 // 0; `positions` of the body frame [m], `orientations`, quaternions w x y z (3D), or `angles` [rad] (2D).
 // Either positions or orientations may be missing: encoders at joints measure angles alone. With several
-// bodies (`bodies`) each sample holds the values of all of them, in the order of the list.
-// At the samples the recorded pose comes back bit for bit; between them
+// bodies (`bodies`) each sample holds the values of all of them, in the order of the list. At the samples the
+// recorded pose comes back bit for bit; between them
 //   x(t) = (1 - u) x_k + u x_(k+1),  q(t) = slerp(q_k, q_(k+1), u) along the shorter way.
 // Linear, because a spline overshoots at impacts; in free flight it cuts the corner by g dt^2/8.
 // Source: Shoemake, Computer Graphics 19 (1985) 245.

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Reference solutions. A reference takes every physical value from the scenario and names only the bodies
-// that play its parts. Three kinds of answer, never mixed: exact (the physics), scheme-exact (what an ideal
+// that play its parts. Three kinds of result, never mixed: exact (the physics), scheme-exact (what an ideal
 // implementation of the engine's own time-stepping scheme gives at this dt), and measured (what a real body
 // did, with the errors of the instrument). The folder's README lists what a reference may include: nothing
 // that an engine is made of, because shared code would prove nothing.
@@ -80,7 +80,7 @@ class Reference {
     virtual double validUntil() const { return 1e300; }
 
     /// The exact state of a body of bodies() at time t in [0, validUntil()] and of a run; outside of these
-    /// the answer means nothing.
+    /// the result means nothing.
     virtual PartialState exact(int body, double t) const;
 
     /// The state after `step` steps of `dt` of an ideal run of `scheme`; empty where no closed form is known.

@@ -115,10 +115,10 @@ struct AuditRow {
     std::string outcome;           ///< "completed", "crashed", "timeout", "unsupported"
     std::int64_t frames = 0;       ///< frames queried
     std::int64_t queries = 0;      ///< shape pairs queried
-    std::int64_t overlapping = 0;  ///< answered as overlapping
+    std::int64_t overlapping = 0;  ///< reported as overlapping
     std::int64_t missed = 0;       ///< the oracle overlaps deeper than the tolerance, the auditor says apart
     std::int64_t spurious = 0;     ///< the reverse
-    std::int64_t undecided = 0;    ///< no exact answer for this shape pair
+    std::int64_t undecided = 0;    ///< no exact result for this shape pair
     std::optional<double> normalErrorMax, normalErrorMedian;  ///< [rad] to the nearest minimising normal
     std::optional<double> depthErrorMax, depthErrorMedian;    ///< [m]
     std::optional<double> pointErrorMax;  ///< [m], of witness points from the exact surfaces

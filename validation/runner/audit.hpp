@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The contact audit: at sampled frames of every run, the contacts that the run itself acted upon and the
-// answers of every collision engine about the same poses are held against the exact oracle. Runs in child
-// processes: one finds the questions, the oracle's answers and what the run did with them for all cases of a
-// scenario, then one per auditor answers them.
+// results of every collision engine at the same poses are compared with the exact oracle. Runs in child
+// processes: one finds the queries, the oracle's results and the contacts of the run for all cases of a
+// scenario, then one per auditor computes its results.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ namespace rigor::validation {
 /// Deeper than this is an overlap that must be found, farther apart one that must not [m].
 inline constexpr double kTouchTolerance = 1e-6;
 
-/// One question: two shapes of two bodies at one moment, and what the oracle says.
+/// One query: two shapes of two bodies at one moment, and what the oracle says.
 struct AuditQuery {
     double time = 0.0;      ///< [s] of a recorded frame
     std::int64_t step = 0;  ///< steps taken up to that frame
@@ -38,7 +38,7 @@ struct AuditQuery {
     std::vector<int> ownPlaces;  ///< place of each of them among all stored contacts of the frame, from 0
 };
 
-/// The questions of one case, from its recorded trajectory.
+/// The queries of one case, from its recorded trajectory.
 struct AuditCase {
     std::string id;
     std::int64_t frames = 0;
@@ -78,7 +78,7 @@ results::AuditRow inRunRow(const scenario::Scenario& scenario, const AuditCase& 
 /// Time [s] and worst angle [rad] between the normals of deepest contacts that the run acted upon and the
 /// nearest exact ones, for each sampled frame with an overlap that it found; in time order.
 std::vector<std::pair<double, double>> normalErrors(const AuditCase& questions);
-/// The oracle's own row: how many questions there were, how many it could decide.
+/// The oracle's own row: the number of queries, and of those that it could decide.
 results::AuditRow oracleRow(const AuditCase& questions);
 
 /// True if any two bodies may ever touch.

@@ -88,7 +88,7 @@ void recordNormalErrors(const AuditCase& found, const std::filesystem::path& tra
     results::writeTrajectory(trajectory, file);
 }
 
-/// Finds the questions of all cases and the oracle's answers.
+/// Finds the queries of all cases and the oracle's results.
 json prepare(const json& request) {
     const scenario::Scenario s = scenarioOf(request);
     json cases = json::array();
@@ -106,7 +106,7 @@ json prepare(const json& request) {
     return {{"cases", std::move(cases)}};
 }
 
-/// One engine's answers to the questions of all cases, or of one.
+/// One engine's results for the queries of all cases, or of one.
 json runQueries(const json& request) {
     const scenario::Scenario s = scenarioOf(request);
     const auto questions = readJsonFile(request.at("questions").get<std::string>());

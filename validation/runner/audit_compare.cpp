@@ -55,7 +55,8 @@ class Comparison {
   public:
     Comparison(const Scenario& scenario, results::AuditRow& row) : scenario_(scenario), row_(row) {}
 
-    /// `places`: of each contact of the answer, among all of its frame; empty where no run acted upon them.
+    /// `places`: index of each contact of the result, among all of its frame; empty where no run acted upon
+    /// them.
     void add(const AuditQuery& q, const CollisionAnswer& answer, const std::vector<int>& places = {}) {
         row_.overlapping += answer.overlap ? 1 : 0;
         if (!q.decided) {
@@ -105,7 +106,7 @@ class Comparison {
             surfaceDistance(deepest.pointB, geometryOf(scenario_, q.bodyB, q.shapeB), q.poseB, dimension));
     }
 
-    /// The worst question so far: a missed overlap before a false one before a wrong normal. `contact`: its
+    /// The worst query so far: a missed overlap before a false one before a wrong normal. `contact`: its
     /// place among the stored contacts of the frame, -1 where it is none of them.
     void name(const AuditQuery& q, const char* what, int rank, int contact = -1) {
         if (rank < worstRank_ || (rank == worstRank_ && rank > 1)) return;

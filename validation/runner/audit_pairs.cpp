@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Collision engines against each other, on the questions of the audit.
+// Collision engines against each other, on the queries of the audit.
 #include <algorithm>
 #include <cmath>
 

@@ -170,7 +170,7 @@ adapter::ContactPoint contactOf(const results::ContactSample& c) {
     return out;
 }
 
-/// Gives the questions of a frame the contacts of the step that began there; what is left over is stray.
+/// Gives the queries of a frame the contacts of the step that began there; what is left over is stray.
 void addOwnContacts(const results::TrajectoryFile& file, std::size_t frame, std::vector<AuditQuery>& queries,
                     std::vector<adapter::ContactPoint>& stray) {
     if (!file.contactInstantsKnown || !results::contactsStored(file, frame)) return;

@@ -114,7 +114,7 @@ void AuditQueue::answered(const std::shared_ptr<Batch>& batch, const std::string
             for (const json& a : said.at("answers")) batch->answers[id][auditor].push_back(answerFromJson(a));
         }
     } else if (onlyCase.empty() && batch->cases.size() > 1 && !result.timedOut) {
-        // One question killed it: the others deserve their answers. (After a hang they would cost too much.)
+        // One query killed it: the others get their results. (After a hang they would cost too much.)
         for (const auto& [id, file] : batch->cases) startQueries(batch, auditor, id);
     } else {
         for (const auto& [id, file] : batch->cases)

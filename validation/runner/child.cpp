@@ -161,7 +161,7 @@ int childMain(const std::vector<std::string>& arguments, const ChildEntries& mor
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
     }
-    // The answer is on the disk: what a library does while it is taken down is no part of it.
+    // The result is on the disk: what a library does while it is taken down is no part of it.
     std::fflush(nullptr);
     _exit(code);
 }

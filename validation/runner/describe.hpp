@@ -40,7 +40,7 @@ void checkSpecs(const std::vector<adapter::EngineSpec>& specs, const std::filesy
 /// anything is run or written.
 void checkPlan(const std::vector<CasePlan>& plan, const std::filesystem::path& binary);
 
-/// A folder for requests and answers that goes away with its owner.
+/// A folder for requests and results that goes away with its owner.
 class ScratchFolder {
   public:
     ScratchFolder();

@@ -50,7 +50,7 @@ void keepWorstSubjects(std::vector<MetricRow>& rows) {
     rows.resize(kMostSubjects);
 }
 
-/// A bound that is set must be answered: a metric that gives no value is a miss, unless it compares with a
+/// A bound that is set must be evaluated: a metric that gives no value is a miss, unless it compares with a
 /// reference that does not hold for these values.
 void addMissing(const MetricEntry& entry, const MetricInput& input, const std::string& problem,
                 CaseRow& row) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// JSON values one to a line, each on the disk before the next is begun: what a child that answers many
-// questions leaves behind when one of them ends it.
+// JSON values one to a line, each on the disk before the next is begun: the results of a child with many
+// queries that one of them has ended.
 #pragma once
 
 #include <filesystem>
@@ -31,7 +31,7 @@ class LineWriter {
 /// The lines up to the first that is not whole; none where there is no file.
 std::vector<nlohmann::json> readJsonLines(const std::filesystem::path& file);
 
-/// SIGALRM after so many seconds, 0: never. It ends a child whose question hangs.
+/// SIGALRM after so many seconds, 0: never. It ends a child whose query hangs.
 void setAlarm(double seconds);
 
 }  // namespace rigor::validation

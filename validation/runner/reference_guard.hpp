@@ -55,7 +55,7 @@ struct ReferenceQuestion {
     bool hasReference = false;  ///< if there is none no child is started
 };
 
-/// One answer per question, in order, `jobs` children at a time. `binary` is the program itself, run again as
+/// One result per query, in order, `jobs` children at a time. `binary` is the program itself, run again as
 /// `rigor __reference ...`.
 std::vector<ReferenceCheck> checkReferences(const std::vector<ReferenceQuestion>& questions,
                                             const ReferenceLimits& limits,

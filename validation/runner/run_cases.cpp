@@ -55,7 +55,7 @@ CaseRow plannedRow(const CasePlan& plan, std::int64_t position) {
     return row;
 }
 
-/// The row of a case whose child gave no answer.
+/// The row of a case whose child gave no result.
 CaseRow failedRow(const CasePlan& plan, std::int64_t position, const ProcessResult& result) {
     CaseRow row = plannedRow(plan, position);
     if (result.timedOut) {

@@ -71,9 +71,9 @@ results::Run runCases(const std::vector<CasePlan>& plan, const RunOptions& optio
 /// Functions of a child by name, each for a request file; they return its exit code.
 using ChildEntries = std::map<std::string, std::function<int(const std::filesystem::path&)>>;
 
-/// Entry point of the child: `rigor __case <request.json>`; writes its answer where the request says. `more`:
-/// entries beside the runner's own, by their first argument ("__collide"). `make`: how references are made;
-/// empty, but in tests: makeReference.
+/// Entry point of the child: `rigor __case <request.json>`; writes its result to the file named in the
+/// request. `more`: entries beside the runner's own, by their first argument ("__collide"). `make`: how
+/// references are made; empty, but in tests: makeReference.
 int childMain(const std::vector<std::string>& arguments, const ChildEntries& more = {},
               const ReferenceMaker& make = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Nature keeps no list. Solvers that go through one (projected Gauss-Seidel) give another answer for another
+// Nature keeps no list. Solvers that go through one (projected Gauss-Seidel) give another result for another
 // order wherever they are not iterated to the end.
 #include <algorithm>
 #include <random>

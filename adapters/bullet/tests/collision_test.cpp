@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"spheres", Sphere{0.5}, Sphere{0.5}, {0, 0.9, 0}, {0, 1, 0}, 0.1, 1},
         Case{"boxes", Box{{0.5, 0.5, 0.5}}, Box{{0.5, 0.5, 0.5}}, {0.9, 0.2, 0.1}, {1, 0, 0}, 0.1, 4},
-        // GJK/EPA answers .0577 along the diagonal for aligned hulls, and .18 with the library's margin.
+        // GJK/EPA gives .0577 along the diagonal for aligned hulls, and .18 with the library's margin.
         Case{"hulls", boxHull({0.5, 0.5, 0.5}), boxHull({0.5, 0.5, 0.5}), {0.9, 0, 0}, {1, 0, 0}, 0.1, 4},
         Case{"hull_on_box", Box{{0.5, 0.5, 0.5}}, boxHull({0.5, 0.5, 0.5}), {0, 0.9, 0}, {0, 1, 0}, 0.1, 4},
         Case{"hull_sphere", boxHull({0.5, 0.5, 0.5}), Sphere{0.5}, {0, 0.9, 0}, {0, 1, 0}, 0.1, 1},

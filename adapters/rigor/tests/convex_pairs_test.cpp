@@ -49,7 +49,7 @@ void checkPair(const Posed& a, const Posed& b, double d, double size, double tol
     const auto curved = [](const scenario::Geometry& g) {
         return std::holds_alternative<scenario::Cylinder>(g) || std::holds_alternative<scenario::Cone>(g);
     };
-    // A ring of ways out leaves EPA unfinished, and its flag says so; the answer is held to all the same.
+    // A ring of ways out leaves EPA unfinished, and its flag says so; the result is tested all the same.
     EXPECT_TRUE(closest.converged || curved(a.geometry) || curved(b.geometry));
     EXPECT_NEAR(static_cast<double>(closest.distance), d, tolerance);
     EXPECT_GE(along(closest.normal), d - tolerance);

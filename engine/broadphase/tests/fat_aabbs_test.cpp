@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Fat AABBs: filtered by the boxes themselves their pairs are those of a double loop, over every broad
-// phase; the broad phase runs only when a box has left its fat one; the answer says whether the
-// pairs changed.
+// Fat AABBs: filtered by the boxes themselves their pairs are those of a double loop, over every broad phase;
+// the broad phase runs only when a box has left its fat one; the result says whether the pairs changed.
 #include "engine/broadphase/fat_aabbs.hpp"
 
 #include <gtest/gtest.h>

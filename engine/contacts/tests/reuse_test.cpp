@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Answers of the narrow phase that are kept (contacts/contact_cache.hpp): against a new query, and through
+// Cached results of the narrow phase (contacts/contact_cache.hpp): against a new query, and through
 // everything that happens to a world.
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 //  - It starts from a tetrahedron of its own, as wide as D, whether it holds the origin or not: a face with
 //    the origin outside has a negative offset and is simply the first to grow. The flat, tiny or touching
 //    simplices that GJK can end with never matter.
-//  - It ends when the two bounds above meet within rounding; the answer is the direction of least h, never
+//  - It ends when the two bounds above meet within rounding; the result is the direction of least h, never
 //    below the true depth.
 //  - A face that the new point lies on (within rounding) counts as seen, so that facets of D with many
 //    vertices leave no slivers. A face that is a sliver all the same keeps its place in the surface, but is

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Box against capsule in 3D: what the closed form says of a box is what the search over all features says
-// of the hull of its corners. Two programs with nothing in common but the question.
+// Box against capsule in 3D: what the closed form says of a box is what the search over all features says of
+// the hull of its corners. Two programs with nothing in common but the problem.
 #include <gtest/gtest.h>
 
 #include <algorithm>

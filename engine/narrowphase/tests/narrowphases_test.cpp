@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Every narrow phase of the table, both dimensions, both precisions: the contract of a manifold, and the same
-// answer as the closest points. "mpr" promises the verdict and a way out, but not always the shortest one.
+// result as the closest points. "mpr" promises the verdict and a way out, but not always the shortest one.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -293,7 +293,7 @@ TYPED_TEST(Solvers, SteadyStepDoesNotAllocate) {
     }
 }
 
-/// A chain of balls that hangs from a joint and carries no redundant row, hit by one more: one answer.
+/// A chain of balls that hangs from a joint and carries no redundant row, hit by one more: one solution.
 TYPED_TEST(Solvers, ConvergedSolversAgree) {
     using S = TypeParam;
     using R = typename S::Real;

@@ -21,9 +21,9 @@
 // (s > 0) are solved again with that of sliding.
 //
 // Cost: O(N^3), N = (D + 2) per contact, in every step: pivoting knows no warm start.
-// Known limits: a hundred contacts, not more. Where the method ends in a ray or rounding ruins its answer,
-// gaveUp() says so, and the last impulses stand, improved by projected Gauss-Seidel sweeps over
-// normals, bounds and (as a box) friction.
+// Known limits: a hundred contacts, not more. Where the method ends in a ray or rounding ruins its solution,
+// gaveUp() says so, and the last impulses stand, improved by projected Gauss-Seidel sweeps over normals,
+// bounds and (as a box) friction.
 #include <algorithm>
 #include <cmath>
 

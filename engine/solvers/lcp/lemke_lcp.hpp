@@ -28,7 +28,7 @@ namespace rigor::engine {
 class LemkeLcp {
   public:
     enum class Outcome { Solved, Ray, TooManyPivots };
-    /// M is n x n row by row. z holds the answer; where it is not Solved, the last basis with its negative
+    /// M is n x n row by row. z holds the solution; where it is not Solved, the last basis with its negative
     /// parts cut off.
     Outcome solve(std::size_t n, const double* M, const double* q, double* z);
     int pivots() const { return pivots_; }

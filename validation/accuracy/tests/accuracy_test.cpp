@@ -205,7 +205,7 @@ TEST(NoGrade, WithoutAnExactAnswerAndAgainstARecording) {
     EXPECT_EQ(none.accuracyOf({}).note, "no exact answer");
 }
 
-/// A metric that a scenario names is graded, unless it compares with no exact answer at all.
+/// A metric that a scenario names is graded, unless it compares with no exact solution at all.
 TEST(Table, EveryMetricOfTheTableExistsAndTheLibrarysAreInIt) {
     for (const auto& entry : scaleTable()) EXPECT_NE(findMetric(entry.metric), nullptr) << entry.metric;
     for (const auto& listed : scenario::listScenarios()) {

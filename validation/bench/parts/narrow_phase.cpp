@@ -23,7 +23,7 @@ constexpr std::size_t kPairs = 1000;
 /// Number of pairs that the oracle judges in every repetition; in round 0 it judges all pairs.
 constexpr std::size_t kJudged = 100;
 /// Bounds of a timing that counts: of the depth, two percent of the 0.05 m that overlapping pairs are moved
-/// in by; wrong answers, one pair in a hundred.
+/// in by; wrong results, one pair in a hundred.
 constexpr double kMeanDepthError = 1e-3, kWrongShare = 0.01;
 /// Overlaps below this may be missed by single precision without being wrong [m].
 constexpr double kNoDepth = 1e-4;

@@ -23,7 +23,7 @@ Scenario libraryScenario(const std::string& name) {
     return loadScenario(findScenario(name)).scenario;
 }
 
-/// Known answers of Random123 (kat_vectors, philox4x32 10).
+/// Known results of Random123 (kat_vectors, philox4x32 10).
 TEST(Philox, GivesThePublishedNumbers) {
     EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}),
               (PhiloxBlock{0x6627e8d5u, 0xe169c58du, 0xbc57ac4cu, 0x9b00dbd8u}));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Judgement of answers whose errors are known, and children that misbehave.
+// Judgement of results whose errors are known, and children that misbehave.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -188,7 +188,7 @@ std::vector<CollideVerdict> verdicts(const CollideRun& run) {
     return list;
 }
 
-/// A query that kills its library costs that one answer; those before and behind it are there.
+/// A query that kills its library costs that one result; those before and behind it are there.
 TEST(Children, OneFatalQueryCostsOneAnswer) {
     const auto run = runDoubles({0.1, 2.5, 0.2, 1.5, 0.3, 0.75, 0.4, -1.0}, "double_auditor_moody");
     using V = CollideVerdict;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Known wrong answers of the libraries as shipped (Bullet 3.24, ODE 0.16.2, FCL 0.7.0, Box2D 2.4.1) are found
+// Known wrong results of the libraries as shipped (Bullet 3.24, ODE 0.16.2, FCL 0.7.0, Box2D 2.4.1) are found
 // by `rigor collide`, and only they: a library that changes in either direction is reported here.
 #include <gtest/gtest.h>
 

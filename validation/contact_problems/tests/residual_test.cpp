@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The natural map where the answer is known by hand, and its projection against a search.
+// The natural map where the solution is known by hand, and its projection against a search.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Contact problems with answers known by hand, and the engines to solve them.
+// Contact problems with solutions known by hand, and the engines to solve them.
 #pragma once
 
 #include <cstdlib>

@@ -79,7 +79,7 @@ TEST(OneContact, PyramidSolversFindTheirOwn) {
             EXPECT_NE(solve->friction().kind, adapter::FrictionModel::Kind::Cone);
             const auto found = solve->run(100, 1e-14);
             const ContactResidual residual = contactResidual(exported.problem, found.r, solve->friction());
-            // A known fault of the library: its Lemke answers with an impulse where nothing has to be done.
+            // A known fault of the library: its Lemke gives an impulse where nothing has to be done.
             if (spec == "bullet:solver=mlcp_lemke" && c.r[0] == 0.0) {
                 EXPECT_GT(residual.own, 0.1);
                 continue;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Imported laboratory experiments: made-up tables of known answer give the scene, the time and the bounds
-// that the formulas give.
+// Imported laboratory experiments: synthetic tables with known results give the scene, the time and the
+// bounds that the formulas give.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The residuals of the contact law where the law itself is the question: gaps, overlap, impacts, pulling
-// contacts, friction along and across the slip, static friction; and K of a point against finite differences
-// of an impulse on rigid bodies.
+// The residuals of the contact law of the law itself: gaps, overlap, impacts, pulling contacts, friction
+// along and across the slip, static friction; and K of a point against finite differences of an impulse on
+// rigid bodies.
 #include <gtest/gtest.h>
 
 #include <cmath>

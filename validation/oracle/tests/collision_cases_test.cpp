@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The oracle against collections of queries with known answers: `collision-cases/*.jsonl` below the folder
+// The oracle against collections of queries with known results: `collision-cases/*.jsonl` below the folder
 // that the environment variable RIGOR_DATA names. Skipped where it is not set.
 #include <gtest/gtest.h>
 

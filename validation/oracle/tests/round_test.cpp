@@ -300,7 +300,7 @@ TEST(RoundOracle, IsBracketedByTheSearchOverDirections) {
 }
 
 /// B moved out along the best way by t is t nearer to separation, whatever t: touching, near touching and
-/// apart have the same answer as deep. Turned, moved far, swapped and scaled: the same.
+/// apart have the same result as deep. Turned, moved far, swapped and scaled: the same.
 TEST(RoundOracle, MovesAndFramesKeepTheAnswer) {
     Random random{std::mt19937(6)};
     for (int i = 0; i < 150; ++i) {

@@ -5,9 +5,9 @@
 // to the centre of mass and delta its turn from balance, delta'' = p^2 sin(delta), p^2 = m g R/I; slipping,
 // as planar_motion.hpp follows it. The touch is at the turn at which its upper corner has crossed the gap,
 // asin(s/h) of a thin one. The wave that follows depends on the law of many impacts and is not given: the
-// answer ends at the touch. Source: Routh, Dynamics of a System of Rigid Bodies, 1905; Stronge and Shu, Proc.
-// R. Soc. A 418 (1988) 155. Assumes: what planar_contact assumes of the first; the second a box at rest with
-// a face across the way. Quantity: touch_time.
+// solution ends at the touch. Source: Routh, Dynamics of a System of Rigid Bodies, 1905; Stronge and Shu,
+// Proc. R. Soc. A 418 (1988) 155. Assumes: what planar_contact assumes of the first; the second a box at rest
+// with a face across the way. Quantity: touch_time.
 #include <cmath>
 
 #include "validation/references/planar/planar_motion.hpp"

@@ -3,7 +3,7 @@
 //
 // A row of bodies with gaps between them: impacts happen one pair at a time, each by Newton's law. With equal
 // masses and e = 1 as many leave as arrive; unequal ones repeat pairwise impacts until they all separate.
-// (All at once, with zero gaps, another answer is possible; that is why gaps must be positive.)
+// (All at once, with zero gaps, another solution is possible; that is why gaps must be positive.)
 // Source: Newton 1687; Acary and Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, 2008.
 // Assumes: see line_collisions.hpp; no gravity but a common fall.
 // Quantities: velocity_<ball> along the line, once the last impact is over.

@@ -6,7 +6,7 @@
 //   stick iff k/(1+k) |s| <= mu (1+e) |vn|: v_t' = v_t - k/(1+k) s; else v_t' = v_t - mu (1+e)|vn| s/|s|;
 //   v_n' = -e v_n; k r^2 w' changes by (-r n) x impulse/m. Free flight before and after, in any gravity.
 // Source: Brach, Mechanical Impact Dynamics, 1991; Walton 1993; Foerster et al. 1994.
-// Assumes: one impact within the time it answers for; valid until the second.
+// Assumes: one impact within the time for which it is valid; valid until the second.
 // Quantities: impact_time, normal_velocity, tangential_velocity, spin after the impact, taken from the last
 // frame before the second impact, back along the free flight.
 #include <algorithm>

@@ -4,7 +4,7 @@
 // A ball runs into a row of balls that touch each other: all contacts are hit in one instant. With u- and u+
 // the rates at which neighbours part before and after, one law for all of them,
 //   p >= 0, u+ + e u- >= 0, p (u+ + e u-) = 0 at every contact, u+ = u- + W p,
-// a linear complementarity problem whose matrix W of the inverse masses is positive definite: one answer.
+// a linear complementarity problem whose matrix W of the inverse masses is positive definite: one solution.
 // Equal masses, one of N runs in at v: it gets (1 - (N-1) e)/N v, every other one (1 + e)/N v; at e = 1
 // energy stays, yet steel balls do otherwise (newtons_cradle: one impact after another, the limit of small
 // gaps). Source: Moreau 1988; Acary and Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, 2008;

@@ -3,8 +3,9 @@
 //
 // Any mechanism: bodies on ball joints, hinges, sliders, rods and welds, with closed loops and superfluous
 // joints, springs and dampers between points of the bodies, constant forces and torques, driven shafts.
-// Equations of motion in mechanism_motion.hpp, integrated in extended precision; the answer is valid until
-// runs of two tolerances part by 1e-8 of the size, and refused where the joints' equations are left by more.
+// Equations of motion in mechanism_motion.hpp, integrated in extended precision; the solution is valid until
+// runs of two tolerances diverge by 1e-8 of the size, and refused where the joints' equations are left by
+// more.
 // Source: Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, 1989, chapter 11; problems:
 // IFToMM Library of Computational Benchmark Problems (Bricard's mechanism, governor); Mazzia and Magherini,
 // Test Set for Initial Value Problem Solvers, 2008 (Andrews' squeezer); Schiehlen, Multibody Systems

@@ -6,7 +6,7 @@
 // the next hinge for j < i, to the centre of mass for j = i):
 //   M_jk = sum_i m_i (R_j b_ij).(R_k b_ik) + delta_jk I_j,
 //   (M th'')_k = sum_i m_i [g + sum_j th_j'^2 R_j b_ij] . (n x R_k b_ik),
-// integrated in extended precision. The answer is valid until runs of two tolerances part by 1e-9.
+// integrated in extended precision. The solution is valid until runs of two tolerances diverge by 1e-9.
 // Source: Goldstein, Poole, Safko 2002, chapter 1; Hairer, Norsett, Wanner, Solving ODEs I, 1993, II.9.
 // Assumes: hinges with parallel axes (2D: also ball joints; 3D ball joints where the motion stays in a plane:
 // arms, gravity and principal axes in or across it), nothing else.

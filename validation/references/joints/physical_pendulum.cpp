@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Physical pendulum: a rigid body on a hinge, any axis; gravity across the axis counts. With I about the
-// axis and d the distance of the centre of mass from it, W^2 = m g d/I in the pendulum's equation
-// (swing.hpp). Source: Whittaker, Analytical Dynamics, 1937, section 44. Stops: at the first limit of its
-// angle (of a ball or cone-twist joint: of its swing) the body loses its speed, and stays where gravity
-// pushes it on; where it swings back instead, the answer ends. Assumes: a hinge (2D: also a ball joint) to a
-// fixed point, initial motion about its axis, nothing else; on a ball or cone-twist joint with a limit,
-// motion about the horizontal across the arm, a principal axis. Quantities: period (mean over the passages
-// through the lowest point), amplitude.
+// Physical pendulum: a rigid body on a hinge, any axis; gravity across the axis counts. With I about the axis
+// and d the distance of the centre of mass from it, W^2 = m g d/I in the pendulum's equation (swing.hpp).
+// Source: Whittaker, Analytical Dynamics, 1937, section 44. Stops: at the first limit of its angle (of a ball
+// or cone-twist joint: of its swing) the body loses its speed, and stays where gravity pushes it on; where it
+// swings back instead, the solution ends. Assumes: a hinge (2D: also a ball joint) to a fixed point, initial
+// motion about its axis, nothing else; on a ball or cone-twist joint with a limit, motion about the
+// horizontal across the arm, a principal axis. Quantities: period (mean over the passages through the lowest
+// point), amplitude.
 #include <algorithm>
 #include <cmath>
 

@@ -4,7 +4,7 @@
 // A body whose centre of mass hangs on a rod or a taut rope from a fixed point p, in 2D or in 3D: a point
 // mass on a sphere of radius l. With n = (x - p)/l:
 //   x'' = g - (g.n + |v|^2/l) n, tension m (g.n + |v|^2/l),
-// integrated to 1e-12 (ode.hpp); the body does not turn. A rope's answer ends when its tension does.
+// integrated to 1e-12 (ode.hpp); the body does not turn. A rope's solution ends when its tension does.
 // Source: Goldstein, Poole, Safko 2002, chapter 1 (Lagrange multipliers); Whittaker 1937, sections 44, 55.
 // Assumes: a distance joint from a fixed point to the centre of mass, without spring or motor, taut at the
 // start; the initial velocity across it; no spin, nothing else.

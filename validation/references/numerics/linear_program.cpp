@@ -153,7 +153,7 @@ LinearProgram::Status LinearProgram::run(Phase phase, const std::vector<Real>& c
         }
         if (leave == rows_) {
             if (onInverse == 0) return enter == columns_.size() ? Status::Optimal : Status::Unbounded;
-            onInverse = kRefactor;  // an answer is given from a fresh inverse only
+            onInverse = kRefactor;  // a result is computed from a fresh inverse only
             continue;
         }
         const Real pivot = direction[leave];

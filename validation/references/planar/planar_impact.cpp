@@ -202,7 +202,7 @@ PlanarMotion::Mode PlanarMotion::impact(double& t, State& s, const std::vector<i
             if (choice[i] == 2) fits = fits && slip > tiny;
             if (choice[i] == 3) fits = fits && slip < -tiny;
         }
-        // A jam is the answer with an impulse; without one the contact has no force that fits.
+        // A jam is the solution with an impulse; without one the contact has no force that fits.
         if (fits && (kind != EventKind::Jam || total > 1e-9L * setup_.mass * speed))
             outcomes.push_back({after, choice});
     }

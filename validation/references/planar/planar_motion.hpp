@@ -10,15 +10,14 @@
 //   slips, s = x' - phi' c_z:  F = -mu N sign(s);   sticks:  s' = 0 with |F| <= mu N.
 // Events: N = 0 (flight), s = 0 (stick, or slip the other way), |F| = mu N (slip), another corner lands.
 // Where both ends of a flat side touch the body rests, slides as a whole or tips over one of them. A block
-// that rocks between two corners at ever shorter intervals lies flat at the limit of the geometric series, one
-// that bounces ever lower touches at the limit of its own.
-// Impacts make neighbouring motions part: a neighbour whose mass properties, coefficients, load and velocities differ by
-// 1e-12 of their values is followed as well, and the answer ends where the two are 1e-8 of the way and the size
-// apart. The errors of the solution, of its event times and of those limits are about as large as that
-// difference or smaller, and grow like it.
-// Impacts: all laws at the level of impulses at once (Newton's restitution at the corner that lands, Coulomb
-// with the slip after the impact), the answer by trying every mode. Where a slipping contact can carry no
-// force and not open either (Painleve), it stops in an impact without collision.
+// that rocks between two corners at ever shorter intervals lies flat at the limit of the geometric series,
+// one that bounces ever lower touches at the limit of its own. Impacts make neighbouring motions part: a
+// neighbour whose mass properties, coefficients, load and velocities differ by 1e-12 of their values is
+// followed as well, and the solution ends where the two are 1e-8 of the way and the size apart. The errors of
+// the solution, of its event times and of those limits are about as large as that difference or smaller, and
+// grow like it. Impacts: all laws at the level of impulses at once (Newton's restitution at the corner that
+// lands, Coulomb with the slip after the impact), the solution by trying every mode. Where a slipping contact
+// can carry no force and not open either (Painleve), it stops in an impact without collision.
 // Source: Painleve 1895; Housner, Bull. Seism. Soc. Am. 53 (1963) 403; Genot and Brogliato, Eur. J. Mech. A
 // 18 (1999) 653; Brogliato, Nonsmooth Mechanics, 2016, chapters 4-5; Stronge, Impact Mechanics, 2000.
 #pragma once
@@ -76,7 +75,7 @@ class PlanarMotion {
 
     /// Follows the motion for `duration`, and on to `end` as far as the laws determine it. Throws
     /// AssumptionViolated for a start inside the floor, contacts that do not fit the velocities, and impacts
-    /// within `duration` and before neighbours part that have no answer or several.
+    /// within `duration` and before neighbours diverge that have no solution or several.
     PlanarMotion(Setup setup, State start, double duration, double end);
     PlanarMotion(Setup setup, State start, double duration)
         : PlanarMotion(std::move(setup), start, duration, duration) {}

@@ -10,7 +10,7 @@
 //     with the parameter eps^2 or 1/eps^2; v and w end together, with eps = 0.653;
 //   n feet at rho_i:  m v' = -(mu m g/n) sum u_i/|u_i|,  I w' = -(mu m g/n) sum rho_i x u_i/|u_i|;
 //     pure spin of feet on one circle: w' = -mu m g a/I whatever the loads.
-// The laws of rigid bodies leave the pressure of more than three points open: this is the answer for equal
+// The laws of rigid bodies leave the pressure of more than three points open: this is the solution for equal
 // pressure, which an engine need not choose. A centre of mass above the floor would tilt the pressure: it
 // must lie in the floor's plane, but for pure spin. tripod_slide has loads that follow from statics.
 // Source: Farkas, Bartels, Unger, Wolf, Phys. Rev. Lett. 90 (2003) 248302; Voyenli and Eriksen, Am. J. Phys.

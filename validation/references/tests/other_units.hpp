@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // A scene in other units of length, time and mass: every number that has a unit is multiplied by it, so that
-// the answers of a reference must be multiplied likewise. If the units are powers of two rounding is the
+// the results of a reference must be multiplied likewise. If the units are powers of two rounding is the
 // same.
 #pragma once
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// References decide and integrate by the scales of the scene: in units six decades off, the scenes of the library
-// give the same answers. Rounding is the same in powers of two, so only an absolute threshold can make a difference.
+// References decide and integrate by the scales of the scene: in units six decades off, the scenes of the
+// library have the same solutions. Rounding is the same in powers of two, so only an absolute threshold can
+// make a difference.
 #include <gtest/gtest.h>
 
 #include "scenarios/loader/loader.hpp"

@@ -5,8 +5,8 @@
 //   references_sweep [--sets N] [--seed N] [--only TEXT] [--seconds N] [--verbose] [--refusals]
 //   references_sweep --only NAME --seed N --write SET      the scenario of one set, as JSON
 // Each set changes the values of the scene (random_change.hpp) and is computed in a child of its own under a
-// limit of time and memory. A set is refused by the reference, or its answers must pass what holds for every
-// reference:
+// limit of time and memory. A set is refused by the reference, or its results must pass the tests that hold
+// for every reference:
 //   time       making the reference, its last state and its quantities take less than the limit;
 //   finite     no state and no quantity is infinite or undefined;
 //   start      exact(0) is the start of the scenario;
@@ -15,7 +15,7 @@
 //   energy     kinetic and potential energy never grow where nothing drives the bodies (all of them known to
 //              the reference, no springs, motors, forces or events, no moving supports);
 //   units      in units of length, time and mass that are powers of two, up to six decades off, the same
-//              scene gives the same answers (rounding is the same, so only absolute thresholds differ).
+//              scene gives the same results (rounding is the same, so only absolute thresholds differ).
 // Prints counts and every set that failed with what makes it again; with --refusals for each scenario how
 // many sets were refused, why, and the longest time. Exit code 1 where a set failed.
 #include <sys/resource.h>

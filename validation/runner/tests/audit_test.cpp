@@ -114,7 +114,7 @@ TEST_F(Audit, AuditorsAreHeldAgainstEachOther) {
     EXPECT_EQ(anxious.missed, oracle.queries - oracle.overlapping) << "found by the second alone";
 }
 
-/// Two of several exact normals are the same answer; two of which one is wrong are not.
+/// Two of several exact normals are the same result; two of which one is wrong are not.
 TEST(AuditPairs, EquallyGoodNormalsDoNotDiffer) {
     const auto answer = [](scenario::Vec3 normal, bool minimising) {
         return AuditAnswer{true, true, true, minimising, 0.1, normal};

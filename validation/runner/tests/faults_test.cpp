@@ -43,7 +43,7 @@ const std::string kFlight = scene("flight", R"("gravity": [0.5, -3.75, 0.25], "d
   "accept": {"*": {"position_max": {"max": 0.0075, "order": 1}, "velocity_max": 1e-11, "orientation_max": 1e-10,
     "spin_final": 1e-10, "quaternion_norm_error": 1e-12, "linear_momentum_drift": 1e-12}})");
 
-/// A ball flies without a spin, so that its scheme's own answer is known.
+/// A ball flies without a spin, so that its scheme's own solution is known.
 const std::string kThrow =
     scene("throw", R"("gravity": [0.5, -3.75, 0.25], "duration": 0.5, "dt": [0.0078125],
   "materials": {"steel": {"friction": 0, "restitution": 1}},

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A body is dragged with the pointer: the point that was taken follows it in the plane through the point across the view (in two
-// dimensions that of the scene). A spring does it, in every instance that shows the body; the last place is sent when
-// the one before has been answered, so that nothing queues up.
+// A body is dragged with the pointer: the point that was taken follows it in the plane through the point across the
+// view (in two dimensions that of the scene). A spring does it, in every instance that shows the body; the last place
+// is sent when the one before has been processed, so that nothing queues up.
 import { conjugate, rotate, sub, type Vec3 } from '../replay/vectors.ts';
 import type { Aim, Pick } from '../replay/view.ts';
 

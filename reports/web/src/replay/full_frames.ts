@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// All frames of a stored trajectory, as `rigor view RUN` gives them: /trajectory/<case id>?from=N&count=M answers an
-// ArrayBundle of as many frames as it likes to send at once. Their numbers are those of the HDF5 file.
+// All frames of a stored trajectory, as `rigor view RUN` gives them: /trajectory/<case id>?from=N&count=M responds with
+// an ArrayBundle of as many frames as it likes to send at once. Their numbers are those of the HDF5 file.
 import { ArrayBundle } from '../common/arrays.ts';
 import {
   type ContactTable,

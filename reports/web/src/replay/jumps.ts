@@ -50,8 +50,8 @@ export function contactEvent(sources: readonly FrameSource[], time: number, forw
 }
 
 /**
- * The frame where the audit found a normal furthest from the exact ones. What the run itself acted upon and what the
- * engine answered comes before what other engines answered about its frames.
+ * The frame where the audit found a normal furthest from the exact ones. Contacts that the run itself acted upon and
+ * results of the engine come before the results of other engines for its frames.
  */
 export function worstNormal(sources: readonly FrameSource[]): Jump | null {
   const rank = ({ source, event }: Jump) => {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// An auditor that aborts on every question.
+// An auditor that aborts on every query.
 #include <cstdlib>
 
 #include "validation/runner/tests/doubles/ball_collisions.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// An auditor that answers well, but aborts on overlaps of more than 2 m, ends the process on more than 1 m,
-// and never comes back from more than 0.5 m.
+// An auditor whose results are right, but that aborts on overlaps of more than 2 m, ends the process on more
+// than 1 m, and never comes back from more than 0.5 m.
 #include <chrono>
 #include <cstdlib>
 #include <thread>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Strengths and weaknesses, from the run's own rankings: by mechanism, where the engine is near the exact answers and among
-// the best, and where it is wrong or far from the best.
+// Strengths and weaknesses, from the run's own rankings: by mechanism, where the engine is near the exact solutions and
+// among the best, and where it is wrong or far from the best.
 import { el } from '../../common/elements.ts';
 import { duration, ratio, toNumber } from '../../common/format.ts';
 import type { Engine, Mechanism } from '../data.ts';

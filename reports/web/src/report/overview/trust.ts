@@ -44,7 +44,7 @@ function line(m: Mechanism, s: Placed): HTMLElement[] {
   return wrong ? [row, el('tr', { class: 'why' }, el('td', { colspan: 5 }, wrong))] : [row];
 }
 
-/** The answer in a sentence. */
+/** The result in a sentence. */
 function answer(m: Mechanism, list: Placed[]): Child {
   const best = list.find((s) => run.columns[m.best] === s.column);
   if (best === undefined) return el('p', { class: 'answer' }, 'No engine can be ranked here.');
