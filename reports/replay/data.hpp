@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Data of the replay beside a report: the thinned frames of all cases of one scenario at one time step, as
-// one ArrayBundle (README.md, "Replay files"). web/src/replay/replay_file.ts reads it.
+// one ArrayBundle (FORMATS.md, "Replay files"). web/src/replay/replay_file.ts reads it.
 #pragma once
 
 #include <cstddef>
