@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Planes, footings and support polygons of the parts a reference is about.
+// Planes, supports and support polygons of the bodies of a reference.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -200,7 +200,7 @@ Plane planeOf(const Scenario& scenario, int floor, Vec3 from) {
     return plane;
 }
 
-Footing footingOf(const Scenario& scenario, int index, const Plane& plane) {
+Support supportOf(const Scenario& scenario, int index, const Plane& plane) {
     const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
     const double tolerance = 1e-6 * sizeOf(body);
     struct Low {
@@ -218,20 +218,20 @@ Footing footingOf(const Scenario& scenario, int index, const Plane& plane) {
         }
     }
     require(!all.empty(), bodyTitle(scenario, index) + " has no shape that could touch");
-    Footing footing;
+    Support support;
     const auto lowest = std::min_element(all.begin(), all.end(),
                                          [](const Low& a, const Low& b) { return a.height < b.height; });
-    footing.gap = lowest->height;
-    footing.material = lowest->material;
+    support.gap = lowest->height;
+    support.material = lowest->material;
     for (const auto& low : all) {
-        if (low.height > footing.gap + tolerance) continue;
+        if (low.height > support.gap + tolerance) continue;
         const auto mine = pairCoefficients(scenario, low.material, plane.material);
-        const auto first = pairCoefficients(scenario, footing.material, plane.material);
+        const auto first = pairCoefficients(scenario, support.material, plane.material);
         require(mine.friction == first.friction && holdingFriction(mine) == holdingFriction(first),
                 bodyTitle(scenario, index) + " stands on shapes of different friction");
-        footing.points.push_back(low.point);
+        support.points.push_back(low.point);
     }
-    return footing;
+    return support;
 }
 
 double supportMargin(const std::vector<Vec3>& points, Vec3 p, Vec3 n, int dimension) {

@@ -124,12 +124,12 @@ struct Plane {
 Plane planeOf(const Scenario& scenario, int floor, Vec3 from);
 
 /// Support of a body on a plane at its initial pose.
-struct Footing {
+struct Support {
     double gap = 0.0;          ///< height of the lowest point [m]
     std::vector<Vec3> points;  ///< lowest points of the body (vertices of the contact area) [m]
     int material = 0;
 };
-Footing footingOf(const Scenario& scenario, int body, const Plane& plane);
+Support supportOf(const Scenario& scenario, int body, const Plane& plane);
 /// Signed distance of `p` to the border of the convex hull of `points` in the plane of normal n; > 0 inside.
 double supportMargin(const std::vector<Vec3>& points, Vec3 p, Vec3 n, int dimension);
 

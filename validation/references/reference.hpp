@@ -19,11 +19,11 @@
 //   solution.
 // - Units. No threshold is an absolute number of a physical unit, so that a scene and the same scene in other
 //   units get the same solution.
-// - Time. Every search and every integration has a bound on its steps and ends with an answer, an answer up to
-//   validUntil(), or a refusal.
+// - Time. Every search and every integration has a bound on its steps and ends with a solution, a solution up
+//   to validUntil(), or a refusal.
 //   No reference measures its own time: `validate`, `run` and `check` compute it in a child under the limits
 //   of validation/runner/reference_guard.hpp (20 s, 2048 MiB by default), and running over is an outcome of
-//   its own, not a refusal. Whoever calls makeReference() directly has no such limit.
+//   its own, not a refusal. A direct call of makeReference() has no such limit.
 #pragma once
 
 #include <cstddef>

@@ -151,7 +151,7 @@ class FreeFlight : public Reference {
         for (auto& shape : one.bodies[0].shapes) shape.material = 0;
         Plane floor = plane;
         floor.material = 0;
-        return footingOf(one, 0, floor).gap;
+        return supportOf(one, 0, floor).gap;
     }
 
     double firstFloorContact() const {

@@ -4,7 +4,7 @@
 // Linear programs, minimise c.x over A x = b, x >= 0, by the two-phase revised simplex method in extended
 // precision. Columns may be added between two calls; the basis is kept. Entries of A and b should be of order
 // 1. Pivots are bounded, so a call always ends, and what it returns is a candidate: x and the multipliers y
-// have to be checked by whoever uses them, in arithmetic of his own (force_balance.hpp). Pricing takes the
+// have to be checked by the caller in exact arithmetic (force_balance.hpp). Pricing takes the
 // least reduced cost, each weighted with a random factor, which leaves cycles; the ratio test is that of
 // Harris, which chooses the largest pivot among the nearly equal ratios. The inverse of the basis is computed
 // anew every 100 pivots and before every result; where it is singular to rounding, the first phase starts

@@ -38,7 +38,7 @@ class RollingBody : public Reference {
           body_(scenario.bodies[static_cast<std::size_t>(index)]),
           plane_(planeOf(scenario, floor, centerOfMass(body_))) {
         const std::string who = bodyTitle(scenario, index);
-        require(scenario.dimension == 3, "a rolling body in space needs three dimensions");
+        require(scenario.dimension == 3, "a rolling body needs three dimensions");
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, floor);
         requireStill(scenario, floor);

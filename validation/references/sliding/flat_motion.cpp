@@ -14,13 +14,13 @@ FlatMotion::FlatMotion(const Scenario& scenario, int index, int floor, const Pla
       along(perpendicular(plane.normal)),
       across(cross(plane.normal, along)),
       centre(centerOfMass(body)),
-      footing(footingOf(scenario, index, plane)) {
+      support(supportOf(scenario, index, plane)) {
     const std::string who = bodyTitle(scenario, index);
     require(scenario.dimension == 3, who + " slides and spins in three dimensions only");
     requireUndisturbed(scenario, index);
     requireContact(scenario, index, floor);
     requireStill(scenario, floor);
-    require(std::abs(footing.gap) <= 1e-4 * sizeOf(body), who + " does not stand on the floor");
+    require(std::abs(support.gap) <= 1e-4 * sizeOf(body), who + " does not stand on the floor");
     const Vec3 w = body.angularVelocity, moment = worldInertia(body) * normal;
     require(norm(cross(w, normal)) <= 1e-9 * norm(w), who + " does not spin about the normal");
     require(std::abs(dot(body.velocity, normal)) <= 1e-9 * norm(body.velocity), who + " leaves the floor");
@@ -28,7 +28,7 @@ FlatMotion::FlatMotion(const Scenario& scenario, int index, int floor, const Pla
             "the normal is not along a principal axis of " + who);
     mass = body.massProperties.mass;
     inertia = dot(normal, moment);
-    friction = pairCoefficients(scenario, footing.material, plane.material).friction;
+    friction = pairCoefficients(scenario, support.material, plane.material).friction;
 }
 
 OdeState FlatMotion::start() const {

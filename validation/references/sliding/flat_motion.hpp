@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A body that keeps its footing: it slides along a plane and turns about the normal alone.
+// A body that stays flat on its support: it slides along a plane and turns about the normal alone.
 #pragma once
 
 #include "validation/references/numerics/ode.hpp"
@@ -27,7 +27,7 @@ struct FlatMotion {
     const Body& body;
     Vec3 normal, along, across;  ///< unit
     Vec3 centre;                 ///< centre of mass at the start [m]
-    Footing footing;
+    Support support;
     numerics::Real mass = 0, inertia = 0;  ///< [kg], about the normal [kg m^2]
     numerics::Real friction = 0;           ///< coefficient of the pair
 };

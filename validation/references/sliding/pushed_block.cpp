@@ -60,8 +60,8 @@ class PushedBlocks : public Reference {
         requireStill(scenario_, floor);
         const Vec3 com = centerOfMass(body);
         const Plane plane = planeOf(scenario_, floor, com);
-        const Footing footing = footingOf(scenario_, index, plane);
-        require(std::abs(footing.gap) <= 1e-4 * sizeOf(body), who + " does not stand on the floor");
+        const Support support = supportOf(scenario_, index, plane);
+        require(std::abs(support.gap) <= 1e-4 * sizeOf(body), who + " does not stand on the floor");
         const double mass = body.massProperties.mass;
         Vec3 force = mass * gravityOn(scenario_, index);
         for (const auto& f : scenario_.forces) {
@@ -74,14 +74,14 @@ class PushedBlocks : public Reference {
         const double load = -dot(force, plane.normal);
         require(load > 0.0, who + " is lifted off the floor");
         const Vec3 along = force + load * plane.normal;
-        const auto pair = pairCoefficients(scenario_, footing.material, plane.material);
+        const auto pair = pairCoefficients(scenario_, support.material, plane.material);
         const double holds = std::max(pair.staticFriction, pair.friction) * load;
         const bool stays = norm(along) <= holds;
         const double friction = stays ? norm(along) : pair.friction * load;
         // The pressure's centre: friction at the floor turns the body forward about its centre of mass.
         const Vec3 center =
             com - plane.height(com) * plane.normal + (plane.height(com) * friction / load) * unit(along);
-        require(supportMargin(footing.points, center, plane.normal, scenario_.dimension) >= 0.0,
+        require(supportMargin(support.points, center, plane.normal, scenario_.dimension) >= 0.0,
                 who + " tips over");
         pushed_.push_back({index, com, stays ? Vec3{} : (1.0 / mass) * (along - friction * unit(along))});
     }

@@ -22,8 +22,8 @@ SlidingBody::SlidingBody(const Scenario& scenario, int index, int floor)
     requireUndisturbed(scenario, index);
     requireContact(scenario, index, floor);
     requireStill(scenario, floor);
-    const Footing footing = footingOf(scenario, index, plane_);
-    require(std::abs(footing.gap) <= 1e-4 * sizeOf(*body_),
+    const Support support = supportOf(scenario, index, plane_);
+    require(std::abs(support.gap) <= 1e-4 * sizeOf(*body_),
             who + " does not start in contact with " + bodyTitle(scenario, floor));
     const Vec3 g = gravityOn(scenario, index);
     load_ = -dot(g, plane_.normal);
@@ -33,22 +33,22 @@ SlidingBody::SlidingBody(const Scenario& scenario, int index, int floor)
     require(norm(body_->angularVelocity) == 0.0, who + " starts with a spin");
     require(negligible(dot(body_->velocity, plane_.normal), norm(body_->velocity)),
             "the velocity of " + who + " is not along " + bodyTitle(scenario, floor));
-    const auto pair = pairCoefficients(scenario, footing.material, plane_.material);
+    const auto pair = pairCoefficients(scenario, support.material, plane_.material);
     mu_ = pair.friction;
     isOneCoefficient_ = holdingFriction(pair) == mu_;
     slide_ = PlanarSlide(pull_, mu_ * load_, body_->velocity, holdingFriction(pair) * load_);
-    requireNoTipping(footing);
+    requireNoTipping(support);
     for (const double t : {0.25, 0.5, 0.75, 1.0})
         require(plane_.holds(com_ + slide_.at(t * scenario.duration).displacement),
                 who + " slides over the edge of " + bodyTitle(scenario, floor));
 }
 
-void SlidingBody::requireNoTipping(const Footing& footing) const {
+void SlidingBody::requireNoTipping(const Support& support) const {
     const double height = plane_.height(com_);
     const Vec3 foot = com_ - height * plane_.normal;
     const double slack = 1e-9 * sizeOf(*body_);
     const auto check = [&](Vec3 offset) {
-        require(supportMargin(footing.points, foot + offset, plane_.normal, scenario_->dimension) >= -slack,
+        require(supportMargin(support.points, foot + offset, plane_.normal, scenario_->dimension) >= -slack,
                 bodyTitle(*scenario_, index_) + " tips: friction at its base outweighs its stance");
     };
     // Directions the motion passes through, then rest.

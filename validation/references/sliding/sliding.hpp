@@ -31,7 +31,7 @@ class SlidingBody {
                            adapter::Scheme scheme) const;
 
   private:
-    void requireNoTipping(const Footing& footing) const;
+    void requireNoTipping(const Support& support) const;
 
     const Scenario* scenario_;
     const Body* body_;

@@ -86,7 +86,7 @@ class SpinningDisc : public Reference {
         }
         Foot middle;
         Real least = 1e30L;
-        for (const Vec3 p : motion_.footing.points) {
+        for (const Vec3 p : motion_.support.points) {
             feet_.push_back(motion_.place(p));
             middle.x += feet_.back().x;
             middle.y += feet_.back().y;

@@ -30,9 +30,9 @@ class TripodSlide : public Reference {
   public:
     TripodSlide(const Scenario& scenario, int index, const FlatMotion& motion, double height)
         : scenario_(scenario), index_(index), motion_(motion), height_(height), mu_(motion.friction) {
-        require(motion_.footing.points.size() == 3,
+        require(motion_.support.points.size() == 3,
                 bodyTitle(scenario, index) + " does not stand on exactly three points");
-        for (const Vec3 p : motion_.footing.points) feet_.push_back(motion_.place(p));
+        for (const Vec3 p : motion_.support.points) feet_.push_back(motion_.place(p));
         const Vec3 g = gravityOn(scenario, index);
         pull_ = {dot(g, motion_.along), dot(g, motion_.across), dot(g, motion_.normal)};
         findEnd(motion_.start());

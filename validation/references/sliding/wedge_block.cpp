@@ -161,11 +161,11 @@ class WedgeBlock : public Reference {
                    0.0;
         };
         const Vec3 up = plane_.normal;
-        double footing = 1e300;
-        for (const Vec3 v : wedgeCorners_) footing = std::min(footing, plane_.height(v));
+        double support = 1e300;
+        for (const Vec3 v : wedgeCorners_) support = std::min(support, plane_.height(v));
         std::vector<Vec3> sole;
         for (const Vec3 v : wedgeCorners_)
-            if (plane_.height(v) < footing + 1e-5 * sizeOf(at(wedge_))) sole.push_back(v);
+            if (plane_.height(v) < support + 1e-5 * sizeOf(at(wedge_))) sole.push_back(v);
         const auto stands = [&](double t) {
             // Moments on the wedge about its centre of mass: floor force at x, block's push, no turning.
             const Vec3 center = centerOfMass(at(wedge_)) + (0.5 * t * t) * wedgeAcceleration_;

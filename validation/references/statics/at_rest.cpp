@@ -92,9 +92,9 @@ class AtRest : public Reference {
         for (std::size_t i = 0; i < 3; ++i) {
             Plane plane;
             plane.normal = axes[i];
-            box.low[i] = footingOf(shifted, 0, plane).gap;
+            box.low[i] = supportOf(shifted, 0, plane).gap;
             plane.normal = -axes[i];
-            box.high[i] = -footingOf(shifted, 0, plane).gap;
+            box.high[i] = -supportOf(shifted, 0, plane).gap;
         }
         return box;
     }
@@ -108,7 +108,7 @@ class AtRest : public Reference {
         for (const auto& shape : other.shapes)
             if (std::holds_alternative<scenario::HalfSpace>(shape.geometry)) {
                 if (other.shapes.size() > 1) return true;
-                return footingOf(scenario_, a, planeOf(scenario_, b, {})).gap <= slack;
+                return supportOf(scenario_, a, planeOf(scenario_, b, {})).gap <= slack;
             }
         const Extent x = extent(a), y = extent(b);
         for (std::size_t i = 0; i < static_cast<std::size_t>(scenario_.dimension); ++i)

@@ -121,10 +121,10 @@ TEST(MeasuredMotion, SeveralBodiesWithAnglesAloneShareTheSamples) {
 }
 
 /// The message of the refusal; "" when the recording is taken.
-std::string refusal(const std::function<void(Recording&)>& spoil) {
+std::string refusal(const std::function<void(Recording&)>& change) {
     Recording r;
     const Scenario good = tossed(r);
-    spoil(r);
+    change(r);
     Scenario s = good;
     setReference(s, "measured_motion",
                  {{"times", r.times}, {"positions", r.positions}, {"orientations", r.orientations}});

@@ -143,17 +143,17 @@ def main():
     options.add_argument("--per-file", type=int, default=0, help="a random sample of each file; 0: all")
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--list", action="store_true", help="print the mutants and run nothing")
-    asked = options.parse_args()
+    arguments = options.parse_args()
 
     known, total, survivors, skipped = equivalents(), 0, 0, 0
-    tests = None if asked.list else Tests(asked.build.resolve())
+    tests = None if arguments.list else Tests(arguments.build.resolve())
     for source in sorted(p for p in FOLDER.rglob("*.cpp") if "tests" not in p.parts):
         name = str(source.relative_to(FOLDER))
-        if not re.fullmatch(asked.files, name):
+        if not re.fullmatch(arguments.files, name):
             continue
         mutants = mutants_of(source)
-        if asked.per_file and len(mutants) > asked.per_file:
-            chosen = random.Random(f"{asked.seed} {name}").sample(range(len(mutants)), asked.per_file)
+        if arguments.per_file and len(mutants) > arguments.per_file:
+            chosen = random.Random(f"{arguments.seed} {name}").sample(range(len(mutants)), arguments.per_file)
             mutants = [mutants[i] for i in sorted(chosen)]
         outcomes = {"compiler": 0, "tests": 0, "time": 0, "survived": 0}
         lines = source.read_text().splitlines()
@@ -161,7 +161,7 @@ def main():
             if (name, new.strip()) in known:
                 skipped += 1
                 continue
-            if asked.list:
+            if arguments.list:
                 print(f"{name}:{number}: {new.strip()}")
                 continue
             outcome = tests.run(source, "\n".join(lines[: number - 1] + [new] + lines[number:]) + "\n")
@@ -171,7 +171,7 @@ def main():
         killed = outcomes["tests"] + outcomes["time"]
         total += killed + outcomes["survived"]
         survivors += outcomes["survived"]
-        if not asked.list:
+        if not arguments.list:
             print(f"{name}: {killed} noticed, {outcomes['survived']} survived, {outcomes['compiler']} did not compile",
                   flush=True)
     print(f"{total} mutants, {survivors} survived, {skipped} known to be equivalent")

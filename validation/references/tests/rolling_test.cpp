@@ -52,17 +52,17 @@ void expectContact(const Scenario& s, const Reference& r, double t, Vec3 arm, bo
     const Wrench w = wrenchOn(s, r, 1, t, 1e-4);
     const Vec3 n{0, 0, 1};
     const double load = dot(w.force, n), mu = s.materials[0].friction;
-    const Vec3 rub = w.force - load * n;
+    const Vec3 friction = w.force - load * n;
     EXPECT_LT(norm(w.torque - cross(arm, w.force)), 2e-6) << t;
     EXPECT_GT(load, 0.0);
     const auto e = r.exact(1, t);
     const Vec3 slip = *e.velocity + cross(*e.angularVelocity, arm);
     if (slips) {
         EXPECT_NEAR(dot(slip, n), 0.0, 1e-9);
-        EXPECT_LT(norm(rub + (mu * load / norm(slip)) * slip), 2e-6);
+        EXPECT_LT(norm(friction + (mu * load / norm(slip)) * slip), 2e-6);
     } else {
         EXPECT_LT(norm(slip), 1e-11);
-        EXPECT_LE(norm(rub), mu * load);
+        EXPECT_LE(norm(friction), mu * load);
     }
     expectConsistent(s, r, 1, t, 1e-7, 1e-4);
 }
@@ -264,15 +264,15 @@ TEST(BallOffBall, RollsThenSlipsThenLeaves) {
             const Wrench w = wrenchOn(s, *r, 1, t, 1e-4);
             const Vec3 n = unit(w.com);
             const double load = dot(w.force, n);
-            const Vec3 rub = w.force - load * n, arm = -0.1 * n;
+            const Vec3 friction = w.force - load * n, arm = -0.1 * n;
             const auto e = r->exact(1, t);
             const Vec3 slip = *e.velocity + cross(*e.angularVelocity, arm);
             EXPECT_LT(norm(w.torque - cross(arm, w.force)), 1e-6);
             EXPECT_GT(load, 0.0);
             if (norm(slip) < 1e-9) {
-                EXPECT_LE(norm(rub), 0.6 * load + 1e-7);
+                EXPECT_LE(norm(friction), 0.6 * load + 1e-7);
             } else {
-                EXPECT_LT(norm(rub + (0.6 * load / norm(slip)) * slip), 1e-6);
+                EXPECT_LT(norm(friction + (0.6 * load / norm(slip)) * slip), 1e-6);
             }
             expectConsistent(s, *r, 1, t, 1e-8, 1e-4);
         }

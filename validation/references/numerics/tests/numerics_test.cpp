@@ -191,7 +191,7 @@ TEST(Roots, FindRootAndFirstDescent) {
 
 /// Hilbert's matrix of order 6, condition 1.5e7, against its inverse of integers; equations in other units
 /// have the same solution, and a matrix of rank 5 is recognised even where rounding leaves no exact zero.
-TEST(LinearSystem, SolvesInAnyUnitsAndTellsSingularMatrices) {
+TEST(LinearSystem, SolvesInAnyUnitsAndFindsSingularMatrices) {
     constexpr int kOrder = 6;
     const double inverseOfLast[kOrder] = {-2772, 83160, -582120, 1552320, -1746360, 698544};
     Matrix hilbert(kOrder, kOrder);
