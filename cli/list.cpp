@@ -163,8 +163,9 @@ Json algorithms() {
             if (option.key == family.name)
                 for (const auto& value : option.values)
                     if (!own.contains(value))
-                        list.push_back(choiceJson(family.name, value, false,
-                                                  value + "'s own, through its adapter, driving our solver"));
+                        list.push_back(
+                            choiceJson(family.name, value, false,
+                                       value + "'s own, through its adapter, driving a solver of rigor"));
     }
     for (const auto& option : rigor.options) {
         if (stages.contains(option.key)) continue;

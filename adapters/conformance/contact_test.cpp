@@ -200,7 +200,7 @@ TEST_P(Contact, ShapesStandTheWayTheScenarioSays) {
 
 /// Whichever way their vertices run. A body stands over an inner vertex and over the middle of a link.
 TEST_P(Contact, SegmentsAndChainsBearFromBothSides) {
-    if (!is2d()) GTEST_SKIP() << "lines are of the plane";
+    if (!is2d()) GTEST_SKIP() << "lines are 2D shapes";
     using namespace scenario;
     const std::vector<Vec3> leftToRight{{-2, 0, 0}, {-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
     for (const bool turned : {false, true})

@@ -25,7 +25,7 @@ using adapter::Vec3;
 
 struct ToGeometry {
     Vec3 origin;          ///< origin of FCL's frame in the shape's frame
-    bool alongZ = false;  ///< FCL's z axis is our y axis
+    bool alongZ = false;  ///< FCL's z axis is the format's y axis
 
     std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Sphere& s) {
         return std::make_shared<fcl::Sphered>(s.radius);

@@ -12,7 +12,7 @@
 
 namespace rigor::ode {
 
-/// One point of dCollide in our convention.
+/// One point of dCollide in the convention of ContactPoint.
 struct FoundPoint {
     adapter::Vec3 position;  ///< position as ODE reports it: on either surface or between them [m]
     adapter::Vec3 normal;    ///< unit, from the first geom to the second (ODE's own points the other way)

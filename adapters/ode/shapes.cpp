@@ -16,7 +16,7 @@ using adapter::Geometry;
 
 namespace {
 
-/// Turns ODE's z axis into our y axis: a quarter turn about -x.
+/// Turns ODE's z axis into the format's y axis: a quarter turn about -x.
 const Quat kFromZToY{std::sqrt(0.5), -std::sqrt(0.5), 0.0, 0.0};
 
 void place(dGeomID geom, const Pose& pose) {

@@ -105,7 +105,7 @@ TEST(Choices, AScenarioFileNamesThem) {
                        {"name": "box", "mass": 1, "position": [0, 0.6, 0], "velocity": [1, 0, 0],
                         "angular_velocity": [0.3, 2, 1], "shapes": [{"box": {"half_extents": [0.5, 0.5, 0.5]}}]}]})");
         if (!engines.is_null()) scenario["engines"] = engines;
-        const auto file = (fs::path(testing::TempDir()) / "asks.json").string();
+        const auto file = (fs::path(testing::TempDir()) / "names_solver.json").string();
         std::ofstream(file) << scenario;
         return file;
     };

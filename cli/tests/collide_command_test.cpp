@@ -74,11 +74,11 @@ TEST(CollideCommand, WritesItsFiles) {
 TEST(CollideCommand, AWrongExpectationIsRed) {
     const auto file = written(
         "wrong.json",
-        R"({"rigor_collision": 1, "name": "wrong", "cases": [{"name": "liar", "a": {"sphere": {"radius": 1}},
+        R"({"rigor_collision": 1, "name": "wrong", "cases": [{"name": "false_file", "a": {"sphere": {"radius": 1}},
             "b": {"sphere": {"radius": 1}, "position": [1.5, 0, 0]}, "expected": {"signed_distance": -0.4}}]})");
     const auto result = rigor("collide " + file.string() + " --engines rigor");
     EXPECT_EQ(result.code, 1);
-    EXPECT_NE(result.out.find("liar"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("false_file"), std::string::npos) << result.out;
 }
 
 /// Random pairs: the same for the same seed and from the file they were saved in; judged by the oracle alone.

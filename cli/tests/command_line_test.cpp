@@ -180,7 +180,7 @@ TEST(CommandLine, EventLogsOfEnginesAgree) {
     EXPECT_EQ(rigor("run bouncing_ball --log motions").code, 2);
 }
 
-TEST(CommandLine, EventLogTellsOfSleepAndJointsWhereTheEngineDoes) {
+TEST(CommandLine, EventLogReportsSleepAndJointsIfTheEngineDoes) {
     EXPECT_EQ(countLines(rigor("run fixed_break --log events").out, " break joint="), 1);
     const auto sleeper = rigor("run box_stack --log events --set duration=3 --engine bullet:preset=default");
     EXPECT_GE(countLines(sleeper.out, " sleep body="), 1) << sleeper.out.substr(0, 3000);
@@ -249,7 +249,7 @@ TEST(CommandLine, UnknownEnginesKeysAndValuesStopEverythingBeforeItBegins) {
     std::ofstream(folder / "study.json") << R"({"rigor_study": 1, "name": "s", "parts": [{"name": "p",
         "scenarios": [")" + file + R"("], "dt": [0.01], "metrics": ["position_final"],
         "variants": ["rigor", "ode:stper=quickstep"]}]})";
-    std::ofstream(folder / "asks.json")
+    std::ofstream(folder / "names_solver.json")
         << replaced(projectileText(), R"("duration": 1.0)",
                     R"("duration": 1.0, "engines": {"ode": {"stepper": "quikstep"}})");
     const std::pair<std::string, const char*> cases[] = {
@@ -257,7 +257,7 @@ TEST(CommandLine, UnknownEnginesKeysAndValuesStopEverythingBeforeItBegins) {
         {"validate " + file + " --engines ode:preset=matchd" + out, "matched"},
         {"validate " + file + " --engines rigor,ode:itertions=20" + out, "iterations"},
         {"validate " + file + " --engines ode:stepper=quikstep" + out, "quickstep"},
-        {"validate " + (folder / "asks.json").string() + " --engines ode" + out, "quickstep"},
+        {"validate " + (folder / "names_solver.json").string() + " --engines ode" + out, "quickstep"},
         {"run " + file + " --engine ode:itertions=20", "iterations"},
         {"run " + file + " --engine bulet", "bullet"},
         {"bench " + file + " --any-build --engines ode:itertions=20" + out, "iterations"},
@@ -439,7 +439,7 @@ TEST(CommandLine, UnusableFoldersAreBadInput) {
 
 /// A library that aborts, ends the process or throws must not look like a green run, nor like an error of
 /// this program.
-TEST(CommandLine, RunTellsOfLibrariesThatFail) {
+TEST(CommandLine, RunReportsLibrariesThatFail) {
     const std::string doubles = "RIGOR_ADAPTER_PATH=" + std::string(RIGOR_BINARY_DIR) + "/tests/doubles";
     const auto file = writeProjectile().string();
     const std::pair<const char*, int> expected[] = {{"double_abort", 5},

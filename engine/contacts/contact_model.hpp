@@ -8,7 +8,7 @@
 //
 //     prepare                          the first sub-step
 //     for each sub-step
-//         beginSubstep                 before forces act: which points bounce, which are let through
+//         beginSubstep                 before forces act: finds points that bounce and speculative ones
 //         solve                        impulses, once or several times
 //         store, advance               impulses back to the contacts; separations follow the bodies
 //

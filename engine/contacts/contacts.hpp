@@ -11,7 +11,7 @@
 //       |
 //     sides, events                                  at the end of the step
 //
-// What becomes of the list in a step is a contact model's (contact_model.hpp).
+// A contact model uses the list in a step (contact_model.hpp).
 //
 // Invariant between the parts: candidates and list have the same order, and Candidate::contact is the slot of
 // a candidate's contact. Dense indices of shapes and bodies are those of the bodies' arrays; structureChanged()

@@ -3,8 +3,8 @@
 //
 // Help for the tests of the page in a browser (web/tests/browser):
 //   report_tool query FILE SQL    rows of a store as a JSON array of arrays, read by SQLite itself
-//   report_tool bench FOLDER      the report of a made-up bench
-//   report_tool synthetic FOLDER  the report of the made-up run, with its bad endings, and of a made-up study
+//   report_tool bench FOLDER      the report of a synthetic bench
+//   report_tool synthetic FOLDER  the report of the synthetic run, with its bad endings, and of a synthetic study
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <cstdio>

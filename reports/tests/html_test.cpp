@@ -137,7 +137,7 @@ TEST_F(Page, OverviewHoldsFormulasAndStepTimings) {
     EXPECT_GT(phases, 100u);
 }
 
-TEST_F(Page, OverviewTellsEveryVerdict) {
+TEST_F(Page, OverviewShowsEveryVerdict) {
     const json overview = data("run-data");
     std::map<std::string, int> shown;
     std::size_t cases = 0;
@@ -147,7 +147,7 @@ TEST_F(Page, OverviewTellsEveryVerdict) {
             ++cases;
         }
     EXPECT_EQ(cases, run_->cases.size());
-    EXPECT_EQ(shown.size(), 8u) << "the made-up run has every verdict";
+    EXPECT_EQ(shown.size(), 8u) << "the synthetic run has every verdict";
     for (const auto& [key, count] : shown) EXPECT_EQ(overview["symbols"][key]["count"], count) << key;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A made-up bench: two engines at three sizes, one of them on two threads, one invalid timing, one crash, a
+// A synthetic bench: two engines at three sizes, one of them on two threads, one invalid timing, one crash, a
 // part with two choices of an engine, one of them wrong, a spec longer than a line, and a baseline.
 #pragma once
 

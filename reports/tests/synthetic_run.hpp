@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A made-up run of realistic size and variety: every outcome and verdict, audit, ledger, curves, hostile
+// A synthetic run of realistic size and variety: every outcome and verdict, audit, ledger, curves, hostile
 // names.
 #pragma once
 

@@ -188,7 +188,7 @@ TEST(Summary, FitsAPullRequestComment) {
 }
 
 /// A feature that an adapter lacks is not reported as missing in the library; both are counted by one code.
-TEST(Summary, RefusalsAreToldApart) {
+TEST(Summary, RefusalsAreDistinguished) {
     const auto run = synthetic::makeRun();
     std::map<std::string, int> count;
     for (const auto& c : run.cases)
@@ -303,7 +303,7 @@ TEST(Terminal, KeepsToItsLinesAndColumns) {
 }
 
 /// The terminal shows the rankings, the failures, the scoreboard and the paths.
-TEST(Terminal, TellsTheStory) {
+TEST(Terminal, ShowsRankingsFailuresAndPaths) {
     const auto run = synthetic::makeRun(190);
     const auto text = terminalSummary(run, 40, 160, false);
     const auto at = [&](const char* words) { return text.find(words); };

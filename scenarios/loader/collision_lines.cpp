@@ -24,7 +24,7 @@ namespace rigor::scenario {
 namespace {
 
 constexpr double kSqrtHalf = 0.70710678118654752440;
-/// Rotation by +90 degrees about x: takes our axis (y) to theirs (z).
+/// Rotation by +90 degrees about x: takes the format's axis (y) to that of the file (z).
 constexpr Quat kAxisYToZ{kSqrtHalf, kSqrtHalf, 0.0, 0.0};
 
 double requiredPositive(const Node& node, const char* key) {

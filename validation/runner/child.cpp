@@ -55,7 +55,7 @@ CaseRow refusedRow(const json& request, const adapter::EngineSpec& spec, const a
     row.ledger.push_back(
         {"refused", error.lacking(), adapter::refusalText(error.refusal()),
          adapter::realisationName(adapter::Realisation::Unsupported),
-         documented ? "its documentation: " + error.documentation() : "no work of ours yet"});
+         documented ? "its documentation: " + error.documentation() : "the adapter has no code for it yet"});
     return row;
 }
 

@@ -114,7 +114,7 @@ TEST(BulletSurfaces, TrianglesHaveTheMaterialOfTheirShape) {
         EXPECT_EQ(contact.shapeA, contact.bodyB == smooth ? 0 : 1);
 }
 
-TEST(BulletSurfaces, TheLedgerTellsThatAHeightFieldIsHollow) {
+TEST(BulletSurfaces, TheLedgerReportsThatAHeightFieldIsHollow) {
     Scenario s = scene();
     addStatic(s, HeightField{2, 2, 1.0, 1.0, {0, 0, 0, 0}, 1.0});
     Simulation run(s, 0.01);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Hinges and sliders of a plane mechanism held in three ways, written out for themselves, with no library. A
-// library whose trajectory is that of one of them to its rounding does what that one does, and what becomes of
-// the error in another is what the one thing that differs is worth. All three move bodies by
+// Hinges and sliders of a plane mechanism held in three ways, written out without any library. A library whose
+// trajectory agrees with one of them to its rounding uses that scheme, and the error of another scheme shows
+// the effect of the one difference. All three move bodies by
 //     v' = v + h g + M^-1 J^T lambda,   x' = x + h v',   theta' = theta + h omega'
 // (symplectic Euler), solved to the end:
 //     Velocities: J v' = -(erp / h) C, J and C of the start of the step;

@@ -131,7 +131,7 @@ TEST(InputCheck, EveryFaultIsRefusedByName) {
         fault.plant(s);
         try {
             checkScenarioInput(s, 0.01);
-            ADD_FAILURE() << fault.name << " was let through";
+            ADD_FAILURE() << fault.name << " was accepted";
         } catch (const BadInput& error) {
             EXPECT_NE(std::string(error.what()).find(fault.mentions), std::string::npos)
                 << fault.name << ": " << error.what();

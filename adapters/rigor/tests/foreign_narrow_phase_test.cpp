@@ -26,7 +26,7 @@ bool installed(const std::string& name) {
     return std::find(engines.begin(), engines.end(), name) != engines.end();
 }
 
-TEST(RigorCollision, EveryAlgorithmTellsDepthAndDistance) {
+TEST(RigorCollision, EveryAlgorithmReportsDepthAndDistance) {
     ASSERT_TRUE(kPathSet);
     EXPECT_EQ(engine().collision()->algorithms(), narrowPhaseValues());
     const Geometry a = Box{{0.5, 0.5, 0.5}}, b = boxHull({0.25, 0.5, 0.75});

@@ -8,7 +8,7 @@
 //                             each a list with commas; by default all, ccd=off, and of form and squares those
 //                             that belong to the seed
 //         seeds=FIRST-LAST (0-19)  bodies=NUMBER (1000)  duration=SECONDS (3)
-//         follow=BODY         of a single case: writes what becomes of the body, step by step
+//         follow=BODY         of a single case: writes the state of the body, step by step
 // A line for each case, with what is lost as BODY@STEP:SHAPE. A line can be given again as arguments. The
 // exit code is 1 where something was lost, 2 for arguments that are not understood.
 #include <cstdio>

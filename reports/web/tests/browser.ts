@@ -77,7 +77,7 @@ export async function smokeRun(): Promise<string> {
   return folder;
 }
 
-/** The report of a made-up run with every bad ending, broken off, and of a study. */
+/** The report of a synthetic run with every bad ending, broken off, and of a study. */
 export function makeSynthetic(name: string): string {
   const folder = join(binaries, 'web_runs', name);
   rmSync(folder, { recursive: true, force: true });
@@ -85,7 +85,7 @@ export function makeSynthetic(name: string): string {
   return folder;
 }
 
-/** The report of a made-up bench: growth, threads, an invalid timing, a crash, a baseline. */
+/** The report of a synthetic bench: growth, threads, an invalid timing, a crash, a baseline. */
 export function makeBench(name: string): string {
   const folder = join(binaries, 'web_runs', name);
   rmSync(folder, { recursive: true, force: true });

@@ -66,7 +66,7 @@ TEST(CollisionFiles, AxesOfLinesAreTurned) {
 }
 
 /// The format is recognised by the content of the file, not by its name.
-TEST(CollisionFiles, FormatsAreToldApart) {
+TEST(CollisionFiles, FormatsAreDistinguished) {
     EXPECT_EQ(loadCollisionFile(written("lines.json", kLine + "\n" + kLine + "\n")).cases.size(), 2u);
     const std::string own =
         R"({"rigor_collision": 1, "name": "one_line", "cases": [{"name": "c", "a": {"sphere": {"radius": 1}},)"

@@ -23,7 +23,7 @@ struct PartEngine {
     adapter::EngineSpec spec;
     EngineDescription description;
 };
-/// The requested engines, or every one there is, each in all its precisions where the spec names none; those
+/// The requested engines, or all available ones, each in all its precisions where the spec names none; those
 /// that cannot be loaded are left out.
 std::vector<PartEngine> partEngines(const BenchRequest& request);
 

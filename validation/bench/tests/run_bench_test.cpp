@@ -68,7 +68,7 @@ class RunBench : public testing::Test {
     BenchOptions options_;
 };
 
-TEST_F(RunBench, TellsSpeedsApart) {
+TEST_F(RunBench, DistinguishesSpeeds) {
     options_.base = "double_free_flight";
     const auto done = run(plan("double_free_flight,double_free_flight:pause_us=3000"));
     ASSERT_EQ(done.bench.cases.size(), 2u);
@@ -78,7 +78,7 @@ TEST_F(RunBench, TellsSpeedsApart) {
     ASSERT_EQ(slow.repetitions.size(), 4u);
     for (const auto& r : slow.repetitions) {
         EXPECT_GE(r.wall, 3e-3);
-        EXPECT_LT(r.cpu, 3e-3) << "who sleeps takes no processor";
+        EXPECT_LT(r.cpu, 3e-3) << "a sleeping process takes no processor time";
         EXPECT_EQ(r.samples, 15);
         EXPECT_GT(r.peakMemoryKiB, 0);
         EXPECT_EQ(r.stateHash, fast.repetitions[0].stateHash) << "the same engine, only slower";
@@ -105,7 +105,7 @@ TEST_F(RunBench, TheLookCountsAllocations) {
 }
 
 /// Sleeping bodies are not work: the table reports their number.
-TEST_F(RunBench, TellsHowManyBodiesSleep) {
+TEST_F(RunBench, ReportsTheNumberOfSleepingBodies) {
     const auto done = run(plan("double_free_flight,double_free_flight:asleep=1"));
     EXPECT_EQ(countOf(done.bench.cases.at(0), "asleep"), 0.0);
     EXPECT_EQ(countOf(done.bench.cases.at(1), "asleep"), 1.0);

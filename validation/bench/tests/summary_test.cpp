@@ -156,7 +156,7 @@ std::vector<std::string> verdicts(const std::vector<results::BenchChange>& list)
     return out;
 }
 
-TEST(Changes, AreToldFromChance) {
+TEST(Changes, AreDistinguishedFromChance) {
     const auto found = changes({1.0, 1.3, 0.6, 1.0});
     EXPECT_THAT(verdicts(found), ElementsAre("same", "slower", "faster", "same"));
     EXPECT_TRUE(becameSlower(found));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The search and its intervals on made-up losses whose minimum is known.
+// The search and its intervals on synthetic losses whose minimum is known.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Imported pushes: made-up ones of closed form come back with the point of the hand that pushes, the friction
+// Imported pushes: synthetic ones of closed form come back with the point of the hand that pushes, the friction
 // of the slide and a finger on the hand's path.
 #include <gmock/gmock.h>
 
@@ -24,7 +24,7 @@ constexpr double kHalf = 0.0375, kFriction = 0.25, kGravity = 9.81, kRate = 100;
 
 /// A hand that accelerates from rest at `start` and turns about y; from the contact on the cube moves with
 /// its pushing point, from the largest speed on it slides alone and the hand stays where it then is.
-struct MadeUpPush {
+struct SyntheticPush {
     double start = 2.0, acceleration = 0.5, reach = 0.5;  // [s], [m/s^2], [s]
     Vec3 point{0, -0.04, -0.14};                          // position of the hand
     double rear = 0.462;                                  // rear face of the cube at rest [m]
@@ -65,8 +65,8 @@ struct MadeUpPush {
 
 fs::path pushes(const std::string& name) {
     const auto folder = freshFolder(name);
-    writeText(folder / "push_0001.csv", MadeUpPush{}.text());
-    MadeUpPush other;
+    writeText(folder / "push_0001.csv", SyntheticPush{}.text());
+    SyntheticPush other;
     other.acceleration = 0.6;
     writeText(folder / "push_0004.csv", other.text());
     return folder;
@@ -85,7 +85,7 @@ TEST(Push, StagesPointAndFrictionComeBack) {
     EXPECT_LT(point.rms, 1e-7);
     const auto path = pathOf(one, point.inHand);
     for (std::size_t k = 10; k < 220; ++k)
-        EXPECT_NEAR(path[k].x, MadeUpPush{}.tip((static_cast<double>(k) + 20) / kRate), 1e-4) << k;
+        EXPECT_NEAR(path[k].x, SyntheticPush{}.tip((static_cast<double>(k) + 20) / kRate), 1e-4) << k;
 }
 
 TEST(CubePush, TheFingerIsDrivenAlongTheHandsPath) {
@@ -102,7 +102,7 @@ TEST(CubePush, TheFingerIsDrivenAlongTheHandsPath) {
     const auto reference = makeReference(s);
     const double begin = 2.5 - [&] {  // the recording's time at the scenario's start
         for (double t = 0.0; t < s.duration; t += 0.01)
-            if (reference->measured(2, t)->position->x > MadeUpPush{}.cube(2.5) - 1e-9) return t;
+            if (reference->measured(2, t)->position->x > SyntheticPush{}.cube(2.5) - 1e-9) return t;
         return 0.0;
     }();
     for (const Event& event : s.events) {
@@ -110,11 +110,11 @@ TEST(CubePush, TheFingerIsDrivenAlongTheHandsPath) {
         now = event.time;
         velocity += event.impulse / s.bodies[body].massProperties.mass;
         if (begin + now < 2.46) {  // times at which the path has no kink
-            EXPECT_NEAR(place.x + 0.005, MadeUpPush{}.tip(begin + now), 1e-4) << now;
+            EXPECT_NEAR(place.x + 0.005, SyntheticPush{}.tip(begin + now), 1e-4) << now;
         }
         EXPECT_GE(place.z, 0.01 - 1e-9) << "clear of the table";
     }
-    EXPECT_NEAR(reference->measured(2, s.duration)->position->x, MadeUpPush{}.cube(4.4), 1e-9);
+    EXPECT_NEAR(reference->measured(2, s.duration)->position->x, SyntheticPush{}.cube(4.4), 1e-9);
     EXPECT_NEAR(reference->measured(2, 0.0)->position->z, kHalf, 1e-12) << "heights count from the table";
     ASSERT_EQ(imported.parameters.size(), 2U);
     EXPECT_EQ(imported.parameters[1].key, "pairs.1.friction");
@@ -126,15 +126,15 @@ TEST(CubePush, TheFingerIsDrivenAlongTheHandsPath) {
 TEST(CubePush, WhatIsWrongIsSaid) {
     const auto folder = freshFolder("push-wrong");
     EXPECT_THAT(refusal("cube-push", folder), HasSubstr("no push_NNN.csv"));
-    MadeUpPush still;
+    SyntheticPush still;
     still.acceleration = 0.01;
     writeText(folder / "push_0001.csv", still.text());
     EXPECT_THAT(refusal("cube-push", folder), HasSubstr("a cube that moves by"));
-    MadeUpPush touching;
+    SyntheticPush touching;
     touching.rear = 0.4555;
     writeText(folder / "push_0001.csv", touching.text());
     EXPECT_THAT(refusal("cube-push", folder), HasSubstr("never clear of the cube"));
-    std::string text = MadeUpPush{}.text();
+    std::string text = SyntheticPush{}.text();
     text.replace(text.rfind("0.003,0.039,1,0,0,0"), 19, "0.003,0.039,2,0,0,0");
     writeText(folder / "push_0001.csv", text);
     EXPECT_THAT(refusal("cube-push", folder), HasSubstr("a quaternion of length 2"));

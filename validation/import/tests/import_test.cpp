@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Imported tosses: made-up flights of closed form come back with their state; what is wrong with a folder is
+// Imported tosses: synthetic flights of closed form come back with their state; what is wrong with a folder is
 // said with file and line; with RIGOR_DATA the real tosses, held against their own description.
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Imported pendulums, carts and published errors: made-up data sets of known content come back as scenarios
+// Imported pendulums, carts and published errors: synthetic data sets of known content come back as scenarios
 // with their state, their joints and their bounds; what is wrong is said with file and line; with RIGOR_DATA
 // the real data sets, held against their own descriptions.
 #include <gmock/gmock.h>
@@ -104,7 +104,7 @@ TEST(ArmModel, ItsJointsBrake) {
     EXPECT_NEAR(angles[1000], 3 * 0.5 / 0.2 * (1 - std::exp(-0.2 / 0.5)), 1e-10);
 }
 
-/// A made-up record of the double pendulum with the parameters above, angles rounded as the data are.
+/// A synthetic record of the double pendulum with the parameters above, angles rounded as the data are.
 fs::path longRecord(const std::string& name, ArmState& middle) {
     const auto folder = doublePendulum(name);
     const ArmModel model{9.8, {0.1, 0.2}, {0.11, 0.12}, {0.17, 0.0}, {4e-4, 1e-3}, {2e-4, 1e-5}};

@@ -506,7 +506,8 @@ TEST(Store, DamagedFilesAreNamed) {
     }
     std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
     EXPECT_THAT(refusal([&] { readRun(folder.path()); }), HasSubstr(file.string()));
-    std::ofstream(file, std::ios::trunc);  // an empty file is a valid, empty database without our mark
+    std::ofstream(file,
+                  std::ios::trunc);  // an empty file is a valid, empty database without the mark of a store
     EXPECT_THAT(refusal([&] { readRun(folder.path()); }), HasSubstr("not a results store"));
 }
 

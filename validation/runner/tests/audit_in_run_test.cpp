@@ -107,7 +107,7 @@ TEST_F(InRun, FlippedNormals) {
     EXPECT_LT(row.depthErrorMax.value(), 1e-12);
 }
 
-TEST_F(InRun, TheCurveOfNormalErrorsTellsWhenTheyWereWrong) {
+TEST_F(InRun, TheCurveOfNormalErrorsShowsWhenTheyWereWrong) {
     const double from = 0.5;  // [s]
     for (auto& c : file_.contacts)
         if (c.time > from - 0.5 * kStep)

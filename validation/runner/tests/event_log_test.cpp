@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The event log against made-up steps: what begins, goes on and ends, impacts seen in the velocities, an
+// The event log against synthetic steps: what begins, goes on and ends, impacts seen in the velocities, an
 // engine's reports on sleep and joints.
 #include "validation/runner/event_log.hpp"
 
@@ -113,7 +113,7 @@ TEST_F(EventLogTest, AnImpactIsASpeedOfApproachThatIsTakenAway) {
     EXPECT_EQ(step(log, 0, {contact(0, 1)}).size(), 1u);
 }
 
-TEST_F(EventLogTest, SleepAndBreakingAreToldOnce) {
+TEST_F(EventLogTest, SleepAndBreakingAreReportedOnce) {
     EventLog log(scene_, 0.01, LogWhat::Events);
     bool asleep = false, holds = true;
     reports_ = {[&](int body) { return asleep && body == 1; }, [&](int) { return holds; }};

@@ -111,7 +111,7 @@ TEST_F(Orders, AreNotRunUnlessRequested) {
 }
 
 /// The ending of another order is reported and counts as the worst grade; the order as written keeps its own.
-TEST_F(Orders, ThatCrashAreToldAndLeaveTheCaseAlone) {
+TEST_F(Orders, ThatCrashAreReportedAndDoNotAffectTheCase) {
     RunOptions o = options();
     o.orders = 2;
     const auto row = run(plan({threeBodies()}, "double_order_abort:preset=default"), o).cases.at(0);
@@ -125,7 +125,7 @@ TEST_F(Orders, ThatCrashAreToldAndLeaveTheCaseAlone) {
     EXPECT_FALSE(row.trajectoryFile.empty());
 }
 
-TEST_F(Orders, AreMadeUpForWhenARunIsGoneOnWith) {
+TEST_F(Orders, AreAddedWhenARunIsResumed) {
     const auto cases = plan({threeBodies()}, "double_order_dependent:preset=default");
     RunOptions o = options();
     run(cases, o);

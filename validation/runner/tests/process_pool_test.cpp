@@ -27,7 +27,7 @@ ProcessResult shell(const std::string& script, ProcessLimits limits = {10.0, 0})
     return result;
 }
 
-TEST(ProcessPool, TellsHowAChildEnded) {
+TEST(ProcessPool, ReportsTheEndOfAChild) {
     EXPECT_TRUE(shell("exit 0").exitedWith(0));
     EXPECT_EQ(shell("exit 3").ending(), "exit code 3");
     EXPECT_THAT(shell("kill -SEGV $$").ending(), HasSubstr("SIGSEGV"));

@@ -69,7 +69,7 @@ TEST(Simulate, HashesTheLastStateAndNothingElse) {
     EXPECT_NE(fly(s, 0.01).stateHash, fly(moved, 0.01).stateHash) << "one bit in, another hash";
 }
 
-TEST(Simulate, TellsEveryStepToWhoListens) {
+TEST(Simulate, CallsTheObserverAfterEveryStep) {
     const auto s = load(thrownBall("ball")).first;
     std::vector<double> times;
     LiveOptions options;

@@ -81,7 +81,7 @@ TEST(Statistics, KolmogorovSmirnovIsExact) {
     }
 }
 
-TEST(Statistics, KolmogorovSmirnovTellsDistributionsApart) {
+TEST(Statistics, KolmogorovSmirnovDistinguishesDistributions) {
     std::vector<double> a, b, shifted;
     for (int i = 0; i < 30; ++i) {
         a.push_back(i);

@@ -113,7 +113,7 @@ TEST(StudyFile, MessagesNameThePlace) {
         "study.unknown_key");
 }
 
-/// A run of the plan with values of our choice.
+/// A run of the plan with given values.
 results::Run runOf(const StudyPlan& plan, const std::map<std::string, double>& jitterOfSpec) {
     results::Run run;
     for (const CasePlan& c : plan.cases) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// This program's own tables in place of the engine's: all of its algorithms, and liars. A liar is an
-// algorithm of the engine that declares one trait otherwise; its name is "liar_" and its summary that trait.
+// This program's own tables in place of the engine's: all of its algorithms, and false entries. One of these is an
+// algorithm of the engine that declares one trait otherwise; its name is "false_" and its summary that trait.
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/ccd/traits.hpp"
 #include "engine/integrators/integrator.hpp"
@@ -127,48 +127,49 @@ std::unique_ptr<Restitution<S>> makeIdle() {
 }  // namespace
 
 // name, honest factory, what is changed
-#define SOLVER_LIARS                                                             \
-    LIAR(contact_frequency, makeSofter, makePgsSoft, (void)t)                    \
-    LIAR(direct, makePgs, makePgs, t.direct = true)                              \
-    LIAR(friction, makePgs, makePgs, t.friction = FrictionShape::Cone)           \
-    LIAR(friction_of_patches, makeWide, makeWide, t.frictionOfPatches = false)   \
-    LIAR(iterations, makePgs, makePgs, t.iterations = 20)                        \
-    LIAR(linear_joint_share, makeWide, makeWide, t.linearJointBaumgarte.reset()) \
-    LIAR(friction_obeys, makeDantzig, makeDantzig, t.friction.reset())           \
-    LIAR(contacts_in_single, makeWide, makeWide, t.contactsInSingle = false)     \
-    LIAR(relax_iterations, makePgsSoft, makePgsSoft, t.relaxIterations = 1)      \
-    LIAR(errors, makeTgsSoft, makeTgsSoft, t.errors = ErrorHandling::Correction) \
-    LIAR(errors_springs, makePgs, makePgs, t.errors = ErrorHandling::Springs)    \
-    LIAR(correction, makeXpbd, makeXpbd, t.errors = ErrorHandling::Correction)   \
-    LIAR(stops, makePgs, makePgs, t.stops = StopRule::Residual)                  \
-    LIAR(substeps, makeTgsSoft, makeTgsSoft, t.substeps = 4)                     \
-    LIAR(warm_starts, makeSinglePass, makeSinglePass, t.warmStarts = true)
-#define FRICTION_LIARS LIAR(shape, frictionPyramid, frictionPyramid, t.shape = FrictionShape::Cone)
-#define INTEGRATOR_LIARS                                                                                     \
-    LIAR(order, integratorVelocityVerlet, integratorVelocityVerlet, t.order = 4)                             \
-    LIAR(scheme, integratorExplicitEuler, integratorExplicitEuler, t.scheme = FlightScheme::SymplecticEuler) \
-    LIAR(forces, integratorRk4, integratorRk4, t.forces = ForceTimes::Start)                                 \
-    LIAR(owns_rotation, integratorVelocityVerlet, integratorVelocityVerlet, t.ownsRotation = true)           \
-    LIAR(in_blocks, integratorExplicitEuler, integratorExplicitEuler, t.inBlocks = true)
-#define ROTATION_LIARS                                                           \
-    LIAR(order, rotationExplicit, rotationExplicit, t.order = 2)                 \
-    LIAR(keeps_momentum, rotationNone, rotationNone, t.keepsMomentum = true)     \
-    LIAR(keeps_energy, rotationImplicit, rotationImplicit, t.keepsEnergy = true) \
-    LIAR(in_blocks, rotationImplicit, rotationImplicit, t.inBlocks = true)
-#define ORIENTATION_LIARS                                                     \
-    LIAR(exact, orientationFirstOrder, orientationFirstOrder, t.exact = true) \
-    LIAR(in_blocks, orientationFirstOrder, orientationFirstOrder, t.inBlocks = true)
-#define COLLISION_LIARS                                                             \
-    LIAR(acts, makeNoContinuousCollision, makeNoContinuousCollision, t.acts = true) \
-    LIAR(loses_rest, makeSpeculative, makeSpeculative, t.losesRest = false)
-#define RESTITUTION_LIARS           \
-    LIAR(bounces, makeDead, (), ()) \
-    LIAR(solves_impacts, makeIdle, (), ())
-#define MANIFOLD_LIARS LIAR(remembers, manifoldDeepest, manifoldDeepest, t.remembers = true)
+#define SOLVER_LIARS                                                                    \
+    FALSE_ENTRY(contact_frequency, makeSofter, makePgsSoft, (void)t)                    \
+    FALSE_ENTRY(direct, makePgs, makePgs, t.direct = true)                              \
+    FALSE_ENTRY(friction, makePgs, makePgs, t.friction = FrictionShape::Cone)           \
+    FALSE_ENTRY(friction_of_patches, makeWide, makeWide, t.frictionOfPatches = false)   \
+    FALSE_ENTRY(iterations, makePgs, makePgs, t.iterations = 20)                        \
+    FALSE_ENTRY(linear_joint_share, makeWide, makeWide, t.linearJointBaumgarte.reset()) \
+    FALSE_ENTRY(friction_obeys, makeDantzig, makeDantzig, t.friction.reset())           \
+    FALSE_ENTRY(contacts_in_single, makeWide, makeWide, t.contactsInSingle = false)     \
+    FALSE_ENTRY(relax_iterations, makePgsSoft, makePgsSoft, t.relaxIterations = 1)      \
+    FALSE_ENTRY(errors, makeTgsSoft, makeTgsSoft, t.errors = ErrorHandling::Correction) \
+    FALSE_ENTRY(errors_springs, makePgs, makePgs, t.errors = ErrorHandling::Springs)    \
+    FALSE_ENTRY(correction, makeXpbd, makeXpbd, t.errors = ErrorHandling::Correction)   \
+    FALSE_ENTRY(stops, makePgs, makePgs, t.stops = StopRule::Residual)                  \
+    FALSE_ENTRY(substeps, makeTgsSoft, makeTgsSoft, t.substeps = 4)                     \
+    FALSE_ENTRY(warm_starts, makeSinglePass, makeSinglePass, t.warmStarts = true)
+#define FRICTION_LIARS FALSE_ENTRY(shape, frictionPyramid, frictionPyramid, t.shape = FrictionShape::Cone)
+#define INTEGRATOR_LIARS                                                                                  \
+    FALSE_ENTRY(order, integratorVelocityVerlet, integratorVelocityVerlet, t.order = 4)                   \
+    FALSE_ENTRY(scheme, integratorExplicitEuler, integratorExplicitEuler,                                 \
+                t.scheme = FlightScheme::SymplecticEuler)                                                 \
+    FALSE_ENTRY(forces, integratorRk4, integratorRk4, t.forces = ForceTimes::Start)                       \
+    FALSE_ENTRY(owns_rotation, integratorVelocityVerlet, integratorVelocityVerlet, t.ownsRotation = true) \
+    FALSE_ENTRY(in_blocks, integratorExplicitEuler, integratorExplicitEuler, t.inBlocks = true)
+#define ROTATION_LIARS                                                                  \
+    FALSE_ENTRY(order, rotationExplicit, rotationExplicit, t.order = 2)                 \
+    FALSE_ENTRY(keeps_momentum, rotationNone, rotationNone, t.keepsMomentum = true)     \
+    FALSE_ENTRY(keeps_energy, rotationImplicit, rotationImplicit, t.keepsEnergy = true) \
+    FALSE_ENTRY(in_blocks, rotationImplicit, rotationImplicit, t.inBlocks = true)
+#define ORIENTATION_LIARS                                                            \
+    FALSE_ENTRY(exact, orientationFirstOrder, orientationFirstOrder, t.exact = true) \
+    FALSE_ENTRY(in_blocks, orientationFirstOrder, orientationFirstOrder, t.inBlocks = true)
+#define COLLISION_LIARS                                                                    \
+    FALSE_ENTRY(acts, makeNoContinuousCollision, makeNoContinuousCollision, t.acts = true) \
+    FALSE_ENTRY(loses_rest, makeSpeculative, makeSpeculative, t.losesRest = false)
+#define RESTITUTION_LIARS                  \
+    FALSE_ENTRY(bounces, makeDead, (), ()) \
+    FALSE_ENTRY(solves_impacts, makeIdle, (), ())
+#define MANIFOLD_LIARS FALSE_ENTRY(remembers, manifoldDeepest, manifoldDeepest, t.remembers = true)
 
 // --- algorithms
 #define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
-#define LIAR(lie, factory, honest, change) {"liar_" #lie, &factory<S>, #lie},
+#define FALSE_ENTRY(lie, factory, honest, change) {"false_" #lie, &factory<S>, #lie},
 template <class S>
 std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable() {
     static constexpr AlgorithmEntry<SolverFactory<S>> table[] = {
@@ -219,9 +220,9 @@ std::span<const AlgorithmEntry<ManifoldFunction<S>>> manifoldTable() {
     return table;
 }
 #undef ALGORITHM
-#undef LIAR
+#undef FALSE_ENTRY
 #define ALGORITHM(name, function, summary) {#name, &function<typename S::Real>, summary},
-#define LIAR(lie, function, honest, change) {"liar_" #lie, &function<typename S::Real>, #lie},
+#define FALSE_ENTRY(lie, function, honest, change) {"false_" #lie, &function<typename S::Real>, #lie},
 template <class S>
 std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable() {
     static constexpr AlgorithmEntry<FrictionLaw<S>> table[] = {
@@ -230,7 +231,7 @@ std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable() {
     return table;
 }
 #undef ALGORITHM
-#undef LIAR
+#undef FALSE_ENTRY
 
 #define RIGOR_INSTANTIATE(S)                                                                     \
     template std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable<S>();                 \
@@ -246,7 +247,8 @@ RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 
 // --- traits
 #define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
-#define LIAR(lie, factory, honest, change) {"liar_" #lie, with(honest##Traits(), [](auto& t) { change; })},
+#define FALSE_ENTRY(lie, factory, honest, change) \
+    {"false_" #lie, with(honest##Traits(), [](auto& t) { change; })},
 std::span<const TraitsEntry<SolverTraits>> solverTraitsTable() {
     static const TraitsEntry<SolverTraits> table[] = {
 #include "engine/solvers/solvers.def"
@@ -290,6 +292,6 @@ std::span<const TraitsEntry<ManifoldTraits>> manifoldTraitsTable() {
     return table;
 }
 #undef ALGORITHM
-#undef LIAR
+#undef FALSE_ENTRY
 
 }  // namespace rigor::engine

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Every algorithm does what it declares, and every lie is found out. Listing an algorithm is enough to be
-// measured. The tables of this program have liars besides (tables.cpp).
+// measured. The tables of this program have false entries as well (tables.cpp).
 #include <gtest/gtest.h>
 
 #include <string>
@@ -25,20 +25,20 @@ using Lies = std::vector<std::string>;
 /// that their summary begins with, the others in none.
 template <class Table>
 void expectTruth(Table table, Lies (*liesOf)(const std::string&)) {
-    int liars = 0;
+    int falseEntries = 0;
     for (const auto& entry : table) {
         const std::string name = entry.name, summary = entry.summary;
         const Lies lies = liesOf(name);
-        if (!name.starts_with("liar_")) {
+        if (!name.starts_with("false_")) {
             EXPECT_EQ(lies, Lies{}) << name;
             continue;
         }
-        ++liars;
+        ++falseEntries;
         bool found = false;
         for (const std::string& lie : lies) found = found || summary.starts_with(lie);
         EXPECT_TRUE(found) << name << " was believed";
     }
-    EXPECT_GT(liars, 0);
+    EXPECT_GT(falseEntries, 0);
 }
 
 TEST(Traits, OfSolversAreMeasured) {

@@ -124,7 +124,7 @@ export function method(): HTMLElement {
       verdict('crashed', 'the process died or ran out of memory'),
       verdict(
         'unsupported',
-        'refused before it ran: what the scenario needs is not in our adapter yet (“not yet”), or the library does not have it by its own documentation, which is named (“n/a”)',
+        'refused before it ran: what the scenario needs is not in the adapter yet (“not yet”), or the library does not have it by its own documentation, which is named (“n/a”)',
       ),
     ),
     el('h3', null, 'What cannot be matched'),

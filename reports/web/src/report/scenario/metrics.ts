@@ -27,7 +27,7 @@ const kinds: [kind: string, title: string, meaning: string][] = [
     'Short pieces',
     'bodies put back on the truth every so many steps: the error of one piece, which chaos cannot drown',
   ],
-  ['outcome', 'What came of it', 'neither right nor wrong for one start: distributions over many are comparable'],
+  ['outcome', 'Outcome', 'neither right nor wrong for one start: distributions over many are comparable'],
 ];
 
 function cell(context: Context, column: Column, name: string, subject: string): HTMLElement {
