@@ -13,17 +13,19 @@ namespace {
 constexpr double kLargestBound = 1e12;
 
 /// "rigor", "bullet@matched", "*", "*@default" -> engine and preset.
-std::pair<std::string, std::string> splitWho(const Node& node, const std::string& who) {
-    const auto at = who.find('@');
-    const std::string engine = who.substr(0, at), preset = at == std::string::npos ? "" : who.substr(at + 1);
+std::pair<std::string, std::string> splitTarget(const Node& node, const std::string& target) {
+    const auto at = target.find('@');
+    const std::string engine = target.substr(0, at),
+                      preset = at == std::string::npos ? "" : target.substr(at + 1);
     if (engine.empty() || (at != std::string::npos && preset != "default" && preset != "matched"))
-        node.problem("accept.engine", "the key '" + who + "'", "engine, engine@default, engine@matched or *");
+        node.problem("accept.engine", "the key '" + target + "'",
+                     "engine, engine@default, engine@matched or *");
     return {engine, preset};
 }
 
 void readBounds(const Node& node, Scenario& scenario) {
-    for (const auto& [who, metrics] : node.members()) {
-        const auto [engine, preset] = splitWho(metrics, who);
+    for (const auto& [target, metrics] : node.members()) {
+        const auto [engine, preset] = splitTarget(metrics, target);
         for (const auto& [metric, value] : metrics.members()) {
             Bound bound{engine, preset, metric, 0.0, 0.0};
             if (value.json().is_object()) {

@@ -127,8 +127,8 @@ void judgeAll(CollideRun& run, int jobs, const std::atomic<bool>& interrupted) {
             CollideCase& c = run.cases[i];
             c.truth.source = "none";
             if (!c.query.unsupported.empty()) continue;
-            c.truth = truthOf(c.queried, run.tolerance);
-            for (CollideAnswer& answer : c.answers) judgeAnswer(c.queried, c.truth, run.tolerance, answer);
+            c.truth = truthOf(c.query, run.tolerance);
+            for (CollideAnswer& answer : c.answers) judgeAnswer(c.query, c.truth, run.tolerance, answer);
         }
     };
     std::vector<std::thread> others;

@@ -78,9 +78,9 @@ void addChosen(const std::string& metric, const std::string& unit, const Competi
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     double budget = 0.0, target = 0.0;
     Competitors refinements;
-    for (const auto& [who, points] : all) {
+    for (const auto& [key, points] : all) {
         if (points.size() < kMinRefinement) continue;
-        refinements[who] = points;
+        refinements[key] = points;
         double cheapest = kInfinity, nearest = kInfinity;
         for (const auto* p : points) {
             cheapest = std::min(cheapest, p->cost);
@@ -90,7 +90,7 @@ void addChosen(const std::string& metric, const std::string& unit, const Competi
         target = std::max(target, nearest);
     }
     if (refinements.size() < 2) return;
-    for (const auto& [who, points] : refinements) {
+    for (const auto& [key, points] : refinements) {
         const WorkPoint *within = nullptr, *reached = nullptr;
         for (const auto* p : points) {
             if (p->cost <= budget && (!within || p->error < within->error)) within = p;

@@ -110,9 +110,9 @@ Plane segmentPlane(const Pose& pose, const Segment& segment, Vec3 from) {
 }
 
 /// A height field that is one flat floor.
-Plane fieldPlane(const Pose& pose, const HeightField& field, const std::string& who) {
+Plane fieldPlane(const Pose& pose, const HeightField& field, const std::string& subject) {
     for (const double h : field.heights)
-        require(h == field.heights[0], who + " is a height field that is not flat");
+        require(h == field.heights[0], subject + " is a height field that is not flat");
     Plane plane = facePlane(pose, {0, 1, 0}, field.heights[0]);
     const Vec3 x = rotate(pose.orientation, {1, 0, 0}), z = rotate(pose.orientation, {0, 0, 1});
     plane.edges.push_back({x, dot(x, pose.position), 0.5 * (field.columns - 1) * field.spacingX});
@@ -176,9 +176,9 @@ bool Plane::holds(Vec3 p) const {
 
 Plane planeOf(const Scenario& scenario, int floor, Vec3 from) {
     const Body& body = scenario.bodies[static_cast<std::size_t>(floor)];
-    const std::string who = bodyTitle(scenario, floor);
-    require(body.type != BodyType::Dynamic, who + " is not fixed");
-    require(body.shapes.size() == 1, who + " must be a single half-space, box, cylinder or segment");
+    const std::string subject = bodyTitle(scenario, floor);
+    require(body.type != BodyType::Dynamic, subject + " is not fixed");
+    require(body.shapes.size() == 1, subject + " must be a single half-space, box, cylinder or segment");
     const Shape& shape = body.shapes[0];
     const Pose pose = body.pose * shape.pose;
     Plane plane;
@@ -191,11 +191,11 @@ Plane planeOf(const Scenario& scenario, int floor, Vec3 from) {
     } else if (const auto* segment = std::get_if<Segment>(&shape.geometry)) {
         plane = segmentPlane(pose, *segment, from);
     } else if (const auto* field = std::get_if<HeightField>(&shape.geometry)) {
-        plane = fieldPlane(pose, *field, who);
+        plane = fieldPlane(pose, *field, subject);
     } else {
-        violated(who + " must be a half-space, a box, a cylinder, a segment or a flat height field");
+        violated(subject + " must be a half-space, a box, a cylinder, a segment or a flat height field");
     }
-    require(plane.holds(from), "the body starts beyond the edge of " + who);
+    require(plane.holds(from), "the body starts beyond the edge of " + subject);
     plane.material = shape.material;
     return plane;
 }

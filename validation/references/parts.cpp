@@ -235,24 +235,24 @@ struct Influence {
 
 void requireUndisturbed(const Scenario& scenario, int index, Allowed allowed) {
     const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
-    const std::string who = bodyTitle(scenario, index);
+    const std::string subject = bodyTitle(scenario, index);
     if (!allowed.joints)
         for (const auto& joint : scenario.joints)
             require(joint.bodyA != index && joint.bodyB != index,
-                    "joint '" + joint.name + "' holds " + who + ", which this reference takes as free");
+                    "joint '" + joint.name + "' holds " + subject + ", which this reference takes as free");
     for (const auto& force : scenario.forces)
         require(std::visit(
                     [&](const auto& f) {
                         return Influence{index, allowed}.allows(f);
                     },
                     force),
-                "a force acts on " + who + " that this reference does not know");
+                "a force acts on " + subject + " that this reference does not know");
     if (!allowed.events)
         for (const auto& event : scenario.events)
-            require(event.body != index, "an event gives an impulse to " + who);
+            require(event.body != index, "an event gives an impulse to " + subject);
     if (!allowed.damping)
-        require(body.linearVelocityKept == 1.0 && body.angularVelocityKept == 1.0, who + " is damped");
-    require(body.massProperties.mass > 0.0, who + " has no mass");
+        require(body.linearVelocityKept == 1.0 && body.angularVelocityKept == 1.0, subject + " is damped");
+    require(body.massProperties.mass > 0.0, subject + " has no mass");
 }
 
 void requireStill(const Scenario& scenario, int body) {
@@ -267,23 +267,23 @@ void requireContact(const Scenario& scenario, int a, int b) {
 
 Ball ballOf(const Scenario& scenario, int index) {
     const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
-    const std::string who = bodyTitle(scenario, index);
+    const std::string subject = bodyTitle(scenario, index);
     require(body.shapes.size() == 1 && std::holds_alternative<scenario::Sphere>(body.shapes[0].geometry),
-            who + " is not a single sphere");
+            subject + " is not a single sphere");
     Ball ball;
     ball.body = index;
     ball.radius = std::get<scenario::Sphere>(body.shapes[0].geometry).radius;
     ball.mass = body.massProperties.mass;
     ball.material = body.shapes[0].material;
     require(negligible(norm(body.shapes[0].pose.position - body.massProperties.centerOfMass), ball.radius),
-            "the centre of mass of " + who + " is not the centre of its sphere");
+            "the centre of mass of " + subject + " is not the centre of its sphere");
     const Mat3& inertia = body.massProperties.inertia;
     const double moment = inertia(2, 2);
     if (scenario.dimension == 3)
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
                 require(negligible(inertia(i, j) - (i == j ? moment : 0.0), moment),
-                        who + " has different moments of inertia about different axes");
+                        subject + " has different moments of inertia about different axes");
     ball.k = moment / (ball.mass * ball.radius * ball.radius);
     ball.center = centerOfMass(body);
     ball.velocity = body.velocity;

@@ -61,7 +61,7 @@ struct AuditAnswers {
     results::AuditRow row;             ///< held against the oracle
     std::vector<AuditAnswer> answers;  ///< results by query
 };
-AuditAnswers queryAuditor(const scenario::Scenario& scenario, const AuditCase& questions,
+AuditAnswers queryAuditor(const scenario::Scenario& scenario, const AuditCase& audited,
                           const adapter::CollisionEngine& engine, const std::string& auditor);
 /// Two engines held against each other, whether or not the oracle knows: a row named "a|b" in which `missed`
 /// counts what b alone calls an overlap, `spurious` what a alone does, and the errors are between the two.
@@ -74,12 +74,12 @@ inline constexpr const char* kInRun = "in_run";
 /// that the engine let act on an overlap counts as found whatever depth it gave it; one between shapes that
 /// are apart is spurious when its depth claims an overlap. There are no queries if the file does not store
 /// the poses.
-results::AuditRow inRunRow(const scenario::Scenario& scenario, const AuditCase& questions);
+results::AuditRow inRunRow(const scenario::Scenario& scenario, const AuditCase& audited);
 /// Time [s] and worst angle [rad] between the normals of deepest contacts that the run acted upon and the
 /// nearest exact ones, for each sampled frame with an overlap that it found; in time order.
-std::vector<std::pair<double, double>> normalErrors(const AuditCase& questions);
+std::vector<std::pair<double, double>> normalErrors(const AuditCase& audited);
 /// The oracle's own row: the number of queries, and of those that it could decide.
-results::AuditRow oracleRow(const AuditCase& questions);
+results::AuditRow oracleRow(const AuditCase& audited);
 
 /// True if any two bodies may ever touch.
 bool hasAuditablePairs(const scenario::Scenario& scenario);

@@ -109,15 +109,15 @@ json prepare(const json& request) {
 /// One engine's results for the queries of all cases, or of one.
 json runQueries(const json& request) {
     const scenario::Scenario s = scenarioOf(request);
-    const auto questions = readJsonFile(request.at("questions").get<std::string>());
-    if (!questions) throw std::runtime_error("the questions of the audit can not be read");
+    const auto queries = readJsonFile(request.at("questions").get<std::string>());
+    if (!queries) throw std::runtime_error("the questions of the audit can not be read");
     const auto auditor = request.at("auditor").get<std::string>();
     const auto only = request.at("only").get<std::string>();
     const adapter::LoadedEngine engine = adapter::loadEngine(adapter::parseSpec(auditor));
     if (engine->collision() == nullptr)
         throw std::runtime_error("'" + auditor + "' has no collision queries");
     json rows = json::object();
-    for (const json& entry : questions->at("cases")) {
+    for (const json& entry : queries->at("cases")) {
         AuditCase requested;
         requested.id = entry.at("id");
         requested.frames = entry.at("frames");

@@ -126,17 +126,17 @@ class Comparison {
 
 }  // namespace
 
-AuditAnswers queryAuditor(const Scenario& scenario, const AuditCase& questions,
+AuditAnswers queryAuditor(const Scenario& scenario, const AuditCase& audited,
                           const adapter::CollisionEngine& engine, const std::string& auditor) {
     AuditAnswers said;
     results::AuditRow& row = said.row;
     row.auditor = auditor;
     row.outcome = "completed";
-    row.frames = questions.frames;
+    row.frames = audited.frames;
     Comparison comparison(scenario, row);
     std::string refusal;
     std::int64_t refused = 0;
-    for (const AuditQuery& q : questions.queries) {
+    for (const AuditQuery& q : audited.queries) {
         adapter::CollisionQuery query;
         query.a = {&geometryOf(scenario, q.bodyA, q.shapeA), q.poseA};
         query.b = {&geometryOf(scenario, q.bodyB, q.shapeB), q.poseB};
@@ -158,19 +158,19 @@ AuditAnswers queryAuditor(const Scenario& scenario, const AuditCase& questions,
     }
     comparison.finish();
     if (refused > 0)
-        row.note = std::to_string(refused) + " of " + std::to_string(questions.queries.size()) +
-                   " questions not answered: " + refusal;
+        row.note = std::to_string(refused) + " of " + std::to_string(audited.queries.size()) +
+                   " queries without a result: " + refusal;
     if (refused > 0 && row.queries == 0) row.outcome = "unsupported";
     return said;
 }
 
-results::AuditRow inRunRow(const Scenario& scenario, const AuditCase& questions) {
+results::AuditRow inRunRow(const Scenario& scenario, const AuditCase& audited) {
     results::AuditRow row;
     row.auditor = kInRun;
     row.outcome = "completed";
     Comparison comparison(scenario, row);
     double last = -1.0;
-    for (const AuditQuery& q : questions.queries) {
+    for (const AuditQuery& q : audited.queries) {
         if (!q.actedUpon) continue;
         ++row.queries;
         if (q.time != last) {
@@ -185,15 +185,15 @@ results::AuditRow inRunRow(const Scenario& scenario, const AuditCase& questions)
         });
         comparison.add(q, answer, q.ownPlaces);
     }
-    for (const ContactPoint& contact : questions.stray) comparison.addStray(contact);
+    for (const ContactPoint& contact : audited.stray) comparison.addStray(contact);
     comparison.finish();
     if (row.queries == 0) row.note = "no contacts are stored with the poses that they belong to";
     return row;
 }
 
-std::vector<std::pair<double, double>> normalErrors(const AuditCase& questions) {
+std::vector<std::pair<double, double>> normalErrors(const AuditCase& audited) {
     std::vector<std::pair<double, double>> errors;
-    for (const AuditQuery& q : questions.queries) {
+    for (const AuditQuery& q : audited.queries) {
         if (!q.actedUpon || !q.decided || q.own.empty() || !(q.signedDistance < -kTouchTolerance)) continue;
         const double angle = nearestAngle(deepestOf(q.own).normal, q.normals);
         if (errors.empty() || errors.back().first != q.time)

@@ -232,13 +232,13 @@ AuditCase findQueries(const Scenario& s, const std::string& caseId, const std::f
     return found;
 }
 
-results::AuditRow oracleRow(const AuditCase& questions) {
+results::AuditRow oracleRow(const AuditCase& audited) {
     results::AuditRow row;
     row.auditor = "oracle";
     row.outcome = "completed";
-    row.frames = questions.frames;
-    row.queries = static_cast<std::int64_t>(questions.queries.size());
-    for (const AuditQuery& q : questions.queries) {
+    row.frames = audited.frames;
+    row.queries = static_cast<std::int64_t>(audited.queries.size());
+    for (const AuditQuery& q : audited.queries) {
         row.undecided += q.decided ? 0 : 1;
         row.overlapping += q.decided && q.signedDistance < -kTouchTolerance ? 1 : 0;
     }

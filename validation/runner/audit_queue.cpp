@@ -39,7 +39,7 @@ AuditRow failedRow(const std::string& auditor, const ProcessResult& result) {
 struct AuditQueue::Batch {
     std::string scenario, text;
     std::map<std::string, std::string> cases;  ///< id to trajectory
-    std::filesystem::path questions;
+    std::filesystem::path queries;
     std::map<std::string, std::map<std::string, AuditRow>> rows;  ///< rows by case and auditor
     std::map<std::string, std::map<std::string, std::vector<AuditAnswer>>> answers;
     int pending = 0;
@@ -57,25 +57,25 @@ void AuditQueue::add(const std::string& scenario, const std::string& scenarioTex
     batch->text = scenarioText;
     batch->cases = cases;
     const std::string stem = "audit-" + std::to_string(next_++);
-    batch->questions = files_.scratch / (stem + ".questions.json");
+    batch->queries = files_.scratch / (stem + ".questions.json");
     json absolute = json::object();
     for (const auto& [id, file] : cases) absolute[id] = (files_.run / file).string();
     const auto request = files_.scratch / (stem + ".json");
     writeJsonFile(request, {{"scenario", scenario},
                             {"text", scenarioText},
                             {"cases", absolute},
-                            {"answer", batch->questions.string()}});
+                            {"answer", batch->queries.string()}});
     pool_.addNext({{files_.binary.string(), "__audit", request.string()},
                    kPrepareLimits,
                    "contact audit: " + scenario,
                    [this, batch](const ProcessResult& result) {
-                       const auto questions = readJsonFile(batch->questions);
-                       if (!result.exitedWith(0) || !questions) {
+                       const auto queries = readJsonFile(batch->queries);
+                       if (!result.exitedWith(0) || !queries) {
                            for (const auto& [id, file] : batch->cases)
                                deliver_(id, {failedRow("oracle", result)});
                            return;
                        }
-                       for (const json& entry : questions->at("cases"))
+                       for (const json& entry : queries->at("cases"))
                            for (const char* row : {"oracle", kInRun})
                                batch->rows[entry.at("id")][row] = auditFromJson(entry.at(row));
                        batch->pending = 1;
@@ -91,7 +91,7 @@ void AuditQueue::startQueries(const std::shared_ptr<Batch>& batch, const std::st
     const auto answer = files_.scratch / (stem + ".answer.json");
     writeJsonFile(request, {{"scenario", batch->scenario},
                             {"text", batch->text},
-                            {"questions", batch->questions.string()},
+                            {"questions", batch->queries.string()},
                             {"auditor", auditor},
                             {"only", onlyCase},
                             {"answer", answer.string()}});
@@ -137,7 +137,7 @@ void AuditQueue::finishOne(const std::shared_ptr<Batch>& batch) {
         deliver_(id, std::move(rows));
     }
     std::error_code ignored;
-    std::filesystem::remove(batch->questions, ignored);
+    std::filesystem::remove(batch->queries, ignored);
 }
 
 }  // namespace rigor::validation

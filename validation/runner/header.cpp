@@ -88,12 +88,12 @@ void writeScenarioFiles(const std::vector<CasePlan>& plan, const fs::path& run) 
 std::map<std::string, ReferenceCheck> plannedReferences(const std::vector<CasePlan>& plan,
                                                         const RunOptions& options) {
     auto references = options.references;
-    std::vector<ReferenceQuestion> questions;
+    std::vector<ReferenceQuestion> queries;
     for (const CasePlan& c : plan)
         if (references.emplace(c.scenario.name, ReferenceCheck{}).second)
-            questions.push_back({c.scenarioText, c.scenario.name, c.scenario.reference.has_value()});
-    const auto checks = checkReferences(questions, options.referenceLimits, options.binary, options.jobs);
-    for (std::size_t i = 0; i < questions.size(); ++i) references[questions[i].name] = checks[i];
+            queries.push_back({c.scenarioText, c.scenario.name, c.scenario.reference.has_value()});
+    const auto checks = checkReferences(queries, options.referenceLimits, options.binary, options.jobs);
+    for (std::size_t i = 0; i < queries.size(); ++i) references[queries[i].name] = checks[i];
     return references;
 }
 

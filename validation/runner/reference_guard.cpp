@@ -104,21 +104,21 @@ ReferenceCheck referenceFailure(bool timedOut, int status, const ReferenceLimits
     return {ReferenceOutcome::Crashed, "the reference crashed: " + endingOf(status)};
 }
 
-std::vector<ReferenceCheck> checkReferences(const std::vector<ReferenceQuestion>& questions,
+std::vector<ReferenceCheck> checkReferences(const std::vector<ReferenceQuestion>& queries,
                                             const ReferenceLimits& limits,
                                             const std::filesystem::path& binary, int jobs) {
     const ScratchFolder scratch;
     ProcessPool pool(jobs);
-    std::vector<ReferenceCheck> checks(questions.size());
-    for (std::size_t i = 0; i < questions.size(); ++i) {
-        if (!questions[i].hasReference) continue;
+    std::vector<ReferenceCheck> checks(queries.size());
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        if (!queries[i].hasReference) continue;
         const auto request = scratch.path() / (std::to_string(i) + ".json"),
                    answer = scratch.path() / (std::to_string(i) + ".answer.json");
-        writeJsonFile(
-            request, {{"text", questions[i].text}, {"name", questions[i].name}, {"answer", answer.string()}});
+        writeJsonFile(request,
+                      {{"text", queries[i].text}, {"name", queries[i].name}, {"answer", answer.string()}});
         pool.add({{binary.string(), "__reference", request.string()},
                   {limits.seconds, limits.memoryMiB},
-                  questions[i].name,
+                  queries[i].name,
                   [&checks, &limits, i, answer](const ProcessResult& result) {
                       checks[i] = answered(answer, result, limits);
                   }});
@@ -128,9 +128,9 @@ std::vector<ReferenceCheck> checkReferences(const std::vector<ReferenceQuestion>
     return checks;
 }
 
-ReferenceCheck checkReference(const ReferenceQuestion& question, const ReferenceLimits& limits,
+ReferenceCheck checkReference(const ReferenceQuestion& query, const ReferenceLimits& limits,
                               const std::filesystem::path& binary) {
-    return checkReferences({question}, limits, binary, 1).front();
+    return checkReferences({query}, limits, binary, 1).front();
 }
 
 int referenceChild(const std::filesystem::path& requestFile, const ReferenceMaker& make) {

@@ -57,10 +57,10 @@ struct ReferenceQuestion {
 
 /// One result per query, in order, `jobs` children at a time. `binary` is the program itself, run again as
 /// `rigor __reference ...`.
-std::vector<ReferenceCheck> checkReferences(const std::vector<ReferenceQuestion>& questions,
+std::vector<ReferenceCheck> checkReferences(const std::vector<ReferenceQuestion>& queries,
                                             const ReferenceLimits& limits,
                                             const std::filesystem::path& binary, int jobs);
-ReferenceCheck checkReference(const ReferenceQuestion& question, const ReferenceLimits& limits,
+ReferenceCheck checkReference(const ReferenceQuestion& query, const ReferenceLimits& limits,
                               const std::filesystem::path& binary);
 
 /// Reason why a process that computed a reference gave no solution, as of waitpid.

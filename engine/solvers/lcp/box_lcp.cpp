@@ -147,10 +147,10 @@ bool BoxLcp::takeIn(const Problem& p, std::size_t d, std::size_t& pieces) {
         double way = std::abs(w_[d]) / std::max(std::abs(dw_[d]), 1e-300);
         std::size_t blocking = d, place = kNullIndex;
         BoxState becomes = BoxState::Free;
-        const auto object = [&](double t, std::size_t who, std::size_t where, BoxState state) {
+        const auto object = [&](double t, std::size_t row, std::size_t where, BoxState state) {
             if (t < way) {
                 way = std::max(0.0, t);
-                blocking = who;
+                blocking = row;
                 place = where;
                 becomes = state;
             }

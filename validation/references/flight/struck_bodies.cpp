@@ -83,8 +83,8 @@ Mass simplices(const std::vector<std::vector<Vec3>>& parts, int dimension) {
 }
 
 /// Triangles of the hull's faces, outwards, by trying every triple of corners: small hulls only.
-std::vector<std::vector<Vec3>> hullFaces(const std::vector<Vec3>& corners, const std::string& who) {
-    require(corners.size() <= 64, who + " has too many corners");
+std::vector<std::vector<Vec3>> hullFaces(const std::vector<Vec3>& corners, const std::string& subject) {
+    require(corners.size() <= 64, subject + " has too many corners");
     std::vector<std::vector<Vec3>> faces;
     const std::size_t n = corners.size();
     double size = 0.0;
@@ -123,7 +123,7 @@ std::vector<std::vector<Vec3>> hullFaces(const std::vector<Vec3>& corners, const
     return faces;
 }
 
-Mass massOf(const scenario::Geometry& geometry, int dimension, const std::string& who) {
+Mass massOf(const scenario::Geometry& geometry, int dimension, const std::string& subject) {
     const bool flat = dimension == 2;
     if (const auto* s = std::get_if<scenario::Sphere>(&geometry)) {
         const double r = s->radius, amount = flat ? kCircle * r * r : 4.0 / 3 * kCircle * r * r * r;
@@ -151,13 +151,13 @@ Mass massOf(const scenario::Geometry& geometry, int dimension, const std::string
                                  -c->halfLength + h / 4);
     }
     if (const auto* p = std::get_if<scenario::ConvexHull>(&geometry)) {
-        if (!flat) return simplices(hullFaces(p->vertices, who), 3);
+        if (!flat) return simplices(hullFaces(p->vertices, subject), 3);
         std::vector<std::vector<Vec3>> triangles;
         for (std::size_t i = 0; i < p->vertices.size(); ++i)
             triangles.push_back({p->vertices[i], p->vertices[(i + 1) % p->vertices.size()]});
         return simplices(triangles, 2);
     }
-    violated(who + " has a shape without a volume");
+    violated(subject + " has a shape without a volume");
 }
 
 class StruckBodies : public Reference {
@@ -218,13 +218,13 @@ class StruckBodies : public Reference {
         one.index = index;
         one.body = scenario_.bodies[static_cast<std::size_t>(index)];
         Body& body = one.body;
-        const std::string who = bodyTitle(scenario_, index);
-        require(gravityOn(scenario_, index) == Vec3{}, "gravity acts on " + who);
+        const std::string subject = bodyTitle(scenario_, index);
+        require(gravityOn(scenario_, index) == Vec3{}, "gravity acts on " + subject);
         require(body.velocity == Vec3{} && body.angularVelocity == Vec3{},
-                who + " moves before it is struck");
-        require(body.shapes.size() == 1, who + " has more than one shape");
+                subject + " moves before it is struck");
+        require(body.shapes.size() == 1, subject + " has more than one shape");
         const auto& shape = body.shapes[0];
-        const Mass mass = massOf(shape.geometry, scenario_.dimension, who);
+        const Mass mass = massOf(shape.geometry, scenario_.dimension, subject);
         const double given = body.massProperties.mass,
                      scale = given / mass.amount;  // scale by density, or by the given mass
         const Mat3 turn = toMatrix(shape.pose.orientation);
@@ -239,16 +239,16 @@ class StruckBodies : public Reference {
                             ? (i != 2 || j != 2 ||
                                negligible(mine.inertia(i, j) - body.massProperties.inertia(i, j), size))
                             : negligible(mine.inertia(i, j) - body.massProperties.inertia(i, j), size),
-                        "the inertia of " + who + " is not that of its shape");
+                        "the inertia of " + subject + " is not that of its shape");
         body.massProperties = {mine.mass, mine.center, mine.inertia};
         one.com = centerOfMass(body);
         const scenario::Event* blow = nullptr;
         for (const auto& event : scenario_.events) {
             if (event.body != index) continue;
-            require(blow == nullptr, who + " is struck twice");
+            require(blow == nullptr, subject + " is struck twice");
             blow = &event;
         }
-        require(blow != nullptr && blow->time < scenario_.duration, who + " is not struck");
+        require(blow != nullptr && blow->time < scenario_.duration, subject + " is not struck");
         one.time = blow->time;
         one.velocity = blow->impulse / mine.mass;
         if (scenario_.dimension == 2) {

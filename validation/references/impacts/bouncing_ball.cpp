@@ -26,13 +26,13 @@ class BouncingBall : public Reference {
           body_(scenario.bodies[static_cast<std::size_t>(index)]),
           ball_(ballOf(scenario, index)),
           plane_(planeOf(scenario, floor, ball_.center)) {
-        const std::string who = bodyTitle(scenario, index);
+        const std::string subject = bodyTitle(scenario, index);
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, floor);
         requireStill(scenario, floor);
         const Vec3 n = plane_.normal, g = gravityOn(scenario, index);
         g_ = -dot(g, n);
-        require(g_ > 0.0, "gravity does not pull " + who + " towards the floor");
+        require(g_ > 0.0, "gravity does not pull " + subject + " towards the floor");
         pull_ = g + g_ * n;
         if (negligible(norm(pull_), norm(g))) pull_ = {};
         speed_ = dot(ball_.velocity, n);
@@ -42,18 +42,18 @@ class BouncingBall : public Reference {
         const Vec3 sideSpin = ball_.spin - dot(ball_.spin, n) * n;
         const bool straight = pull_ == Vec3{} && negligible(norm(drift_), norm(ball_.velocity)) &&
                               negligible(norm(sideSpin), norm(ball_.spin));
-        require(
-            straight || holdingFriction(pair) == 0.0,
-            "the bounce of " + who + " is oblique or gravity is not along the normal, and there is friction");
+        require(straight || holdingFriction(pair) == 0.0,
+                "the bounce of " + subject +
+                    " is oblique or gravity is not along the normal, and there is friction");
         if (straight) drift_ = {};
         gap_ = plane_.height(ball_.center) - ball_.radius;
-        require(gap_ >= -1e-9 * ball_.radius, who + " starts inside the floor");
+        require(gap_ >= -1e-9 * ball_.radius, subject + " starts inside the floor");
         gap_ = std::max(gap_, 0.0);
         impact_ = std::sqrt(speed_ * speed_ + 2.0 * g_ * gap_);
         first_ = (speed_ + impact_) / g_;
         for (const double t : {0.5, 1.0})
             require(plane_.holds(ball_.center + tangential(t * duration_)),
-                    who + " leaves the floor sideways");
+                    subject + " leaves the floor sideways");
     }
     std::vector<int> bodies() const override { return {ball_.body}; }
 

@@ -111,12 +111,12 @@ class IncrementalImpact : public Reference {
           index_(body),
           frame_(scenario, body, floor),
           motion_(untilImpact(frame_.setup()), frame_.start(), scenario.duration, runEnd(scenario)) {
-        const std::string who = bodyTitle(scenario, body);
-        require(!motion_.events().empty(), who + " does not hit the floor");
+        const std::string subject = bodyTitle(scenario, body);
+        require(!motion_.events().empty(), subject + " does not hit the floor");
         const auto& hit = motion_.events().front();
         require(
             hit.kind == PlanarMotion::EventKind::Impact && hit.corner >= 0 && hit.other < 0 && hit.time > 0.0,
-            who + " does not come from flight to the floor with one corner");
+            subject + " does not come from flight to the floor with one corner");
         time_ = hit.time;
         after_ = hit.before;
         const auto& s = frame_.setup();

@@ -15,16 +15,16 @@ using namespace scenario;
 constexpr std::size_t kMaxImpacts = 20000;
 
 /// Reach of a sphere or box along d from its own centre; the box needs a side across d.
-double reach(const Shape& shape, Quat bodyOrientation, Vec3 d, int dimension, const std::string& who) {
+double reach(const Shape& shape, Quat bodyOrientation, Vec3 d, int dimension, const std::string& subject) {
     if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) return sphere->radius;
     const auto* box = std::get_if<Box>(&shape.geometry);
-    require(box != nullptr, who + " is neither a sphere nor a box");
+    require(box != nullptr, subject + " is neither a sphere nor a box");
     const Vec3 local = rotateInverse(bodyOrientation * shape.pose.orientation, d);
     const double h[3] = {box->halfExtents.x, box->halfExtents.y, box->halfExtents.z};
     const double c[3] = {std::abs(local.x), std::abs(local.y), std::abs(local.z)};
     for (int i = 0; i < dimension; ++i)
         if (c[i] > 1.0 - 1e-12) return h[i];
-    violated("no side of " + who + " is across the line of the collision");
+    violated("no side of " + subject + " is across the line of the collision");
 }
 
 }  // namespace
@@ -54,18 +54,18 @@ LineCollisions::LineCollisions(const Scenario& scenario, std::vector<int> bodies
     double fastest = 0.0;
     for (const int i : bodies_) fastest = std::max(fastest, norm(body(i).velocity));
     for (const int i : bodies_) {
-        const std::string who = bodyTitle(scenario, i);
+        const std::string subject = bodyTitle(scenario, i);
         const Body& b = body(i);
-        require(b.angularVelocity == Vec3{}, who + " spins");
+        require(b.angularVelocity == Vec3{}, subject + " spins");
         require(negligible(norm(cross(b.velocity, direction_)), fastest),
-                "the velocity of " + who + " is not along the line of the centres");
+                "the velocity of " + subject + " is not along the line of the centres");
         if (b.type != BodyType::Dynamic) {
-            require(norm(gravity_) == 0.0, "gravity acts beside the fixed " + who);
+            require(norm(gravity_) == 0.0, "gravity acts beside the fixed " + subject);
             continue;
         }
         requireUndisturbed(scenario, i);
         require(negligible(norm(gravityOn(scenario, i) - gravity_), norm(gravity_)),
-                "gravity acts differently on " + who);
+                "gravity acts differently on " + subject);
     }
     Phase start;
     std::vector<std::pair<Member, int>> order;
@@ -81,11 +81,11 @@ LineCollisions::LineCollisions(const Scenario& scenario, std::vector<int> bodies
         const auto &a = start.members[k], &b = start.members[k + 1];
         const double gap = b.position - b.low - a.position - a.high,
                      size = std::max(sizeOf(body(bodies_[k])), sizeOf(body(bodies_[k + 1])));
-        const std::string who =
+        const std::string subject =
             bodyTitle(scenario, bodies_[k]) + " and " + bodyTitle(scenario, bodies_[k + 1]);
-        require(gap >= -1e-9 * size, who + " overlap");
+        require(gap >= -1e-9 * size, subject + " overlap");
         require(!gapsNeeded || gap > 1e-9 * size,
-                who + " touch: which of them moves first is not defined without a gap");
+                subject + " touch: which of them moves first is not defined without a gap");
         if (a.mass > 0.0 || b.mass > 0.0) requireContact(scenario, bodies_[k], bodies_[k + 1]);
     }
     phases_.push_back(std::move(start));
@@ -94,16 +94,16 @@ LineCollisions::LineCollisions(const Scenario& scenario, std::vector<int> bodies
 
 LineCollisions::Member LineCollisions::memberOf(int index) const {
     const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
-    const std::string who = bodyTitle(scenario_, index);
+    const std::string subject = bodyTitle(scenario_, index);
     Member member;
     member.velocity = dot(body.velocity, direction_);
-    require(body.shapes.size() == 1, who + " has not exactly one shape");
+    require(body.shapes.size() == 1, subject + " has not exactly one shape");
     const Shape& shape = body.shapes[0];
     member.lowMaterial = member.highMaterial = shape.material;
     if (std::holds_alternative<HalfSpace>(shape.geometry)) {
         const Plane plane = planeOf(scenario_, index, origin_);
         require(norm(cross(plane.normal, direction_)) < 1e-9,
-                who + " is not across the line of the collision");
+                subject + " is not across the line of the collision");
         member.position = (plane.offset - dot(plane.normal, origin_)) / dot(plane.normal, direction_);
         return member;
     }
@@ -111,14 +111,14 @@ LineCollisions::Member LineCollisions::memberOf(int index) const {
     const Vec3 center = body.pose * shape.pose.position;
     const Vec3 com = body.type == BodyType::Dynamic ? centerOfMass(body) : center;
     member.position = dot(com - origin_, direction_);
-    const double size = reach(shape, body.pose.orientation, direction_, scenario_.dimension, who);
+    const double size = reach(shape, body.pose.orientation, direction_, scenario_.dimension, subject);
     const double tolerance = 1e-9 * size;
     require(norm(com - origin_ - member.position * direction_) <= tolerance ||
                 (member.mass == 0.0 && std::holds_alternative<Box>(shape.geometry)),
-            "the centre of mass of " + who + " is off the line");
+            "the centre of mass of " + subject + " is off the line");
     if (std::holds_alternative<Sphere>(shape.geometry))
         require(norm(cross(center - origin_, direction_)) <= tolerance,
-                "the sphere of " + who + " is off the line");
+                "the sphere of " + subject + " is off the line");
     const double offset = dot(center - com, direction_);
     member.low = size - offset;
     member.high = size + offset;

@@ -26,29 +26,29 @@ class RodStrikesBall : public Reference {
     RodStrikesBall(const Scenario& scenario, int rod, int ball)
         : scenario_(scenario), ball_(ballOf(scenario, ball)) {
         const Body& swung = scenario.bodies[static_cast<std::size_t>(rod)];
-        const std::string who = bodyTitle(scenario, rod);
+        const std::string subject = bodyTitle(scenario, rod);
         requireUndisturbed(scenario, ball);
         requireContact(scenario, rod, ball);
         requireStill(scenario, ball);
         require(gravityOn(scenario, ball) == Vec3{}, "gravity acts on the ball");
         require(swung.type == scenario::BodyType::Kinematic && swung.velocity == Vec3{},
-                who + " is not driven about a fixed point");
+                subject + " is not driven about a fixed point");
         const auto* capsule =
             swung.shapes.size() == 1 ? std::get_if<scenario::Capsule>(&swung.shapes[0].geometry) : nullptr;
-        require(capsule != nullptr, who + " is not a capsule");
+        require(capsule != nullptr, subject + " is not a capsule");
         const Pose pose = swung.pose * swung.shapes[0].pose;
         const Vec3 half = rotate(pose.orientation, {0, capsule->halfLength, 0});
         pivot_ = swung.pose.position;
         const bool up = norm(pose.position - half - pivot_) < norm(pose.position + half - pivot_);
         const Vec3 near = up ? pose.position - half : pose.position + half;
         require(norm(near - pivot_) <= 1e-9 * norm(half),
-                "the axis of " + who + " does not end at its pivot");
+                "the axis of " + subject + " does not end at its pivot");
         arm_ = 2.0 * (up ? half : -1.0 * half);
         turn_ = swung.angularVelocity;
         const Vec3 to = ball_.center - pivot_, axis = unit(turn_);
         require(turn_ != Vec3{} && std::abs(dot(axis, arm_)) <= 1e-9 * norm(arm_) &&
                     std::abs(dot(axis, to)) <= 1e-9 * norm(to),
-                "the ball is not in the plane in which " + who + " turns");
+                "the ball is not in the plane in which " + subject + " turns");
         const auto pair = pairCoefficients(scenario, swung.shapes[0].material, ball_.material);
         require(holdingFriction(pair) == 0.0, "there is friction between rod and ball");
         const double D = norm(to), R = capsule->radius + ball_.radius, L = norm(arm_);

@@ -26,20 +26,20 @@ class SpherePlaneImpact : public Reference {
           ball_(ballOf(scenario, index)),
           plane_(planeOf(scenario, floor, ball_.center)),
           gravity_(gravityOn(scenario, index)) {
-        const std::string who = bodyTitle(scenario, index);
+        const std::string subject = bodyTitle(scenario, index);
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, floor);
         requireStill(scenario, floor);
         const Vec3 n = plane_.normal;
         const double gap = plane_.height(ball_.center) - ball_.radius;
-        require(gap >= -1e-9 * ball_.radius, who + " starts inside the floor");
+        require(gap >= -1e-9 * ball_.radius, subject + " starts inside the floor");
         const auto hit =
             numerics::firstDescent(0.5L * dot(gravity_, n), dot(ball_.velocity, n), std::max(gap, 0.0));
         require(hit.has_value() && *hit <= scenario.duration,
-                who + " does not reach the floor within the duration");
+                subject + " does not reach the floor within the duration");
         time_ = static_cast<double>(*hit);
         contact_ = ball_.center + time_ * ball_.velocity + (0.5 * time_ * time_) * gravity_;
-        require(plane_.holds(contact_), who + " misses the floor");
+        require(plane_.holds(contact_), subject + " misses the floor");
         before_ = ball_.velocity + time_ * gravity_;
         const auto pair = pairCoefficients(scenario, ball_.material, plane_.material);
         const Vec3 slip = before_ - ball_.radius * cross(ball_.spin, n);

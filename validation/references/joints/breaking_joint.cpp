@@ -112,26 +112,26 @@ class BreakingJoint : public Reference {
         return norm(load) > joint_.breakForce || norm(cross(arm_, load)) > joint_.breakTorque;
     }
     void requireAtRest(Vec3 load) const {
-        const std::string who = "joint '" + joint_.name + "'";
+        const std::string subject = "joint '" + joint_.name + "'";
         switch (joint_.type) {
             case JointType::Fixed:
                 return;
             case JointType::Ball:
             case JointType::Hinge:
                 return require(norm(cross(arm_, load)) <= 1e-9 * norm(load) * sizeOf(body_),
-                               who + " does not keep " + bodyTitle(scenario_, index_) + " from turning");
+                               subject + " does not keep " + bodyTitle(scenario_, index_) + " from turning");
             case JointType::Distance:
                 return require(dot(load, line_) <= 0.0 &&
                                    norm(cross(load, line_)) <= 1e-9 * norm(load) * norm(line_) &&
                                    norm(arm_) <= 1e-9 * norm(line_),
-                               who + " is not drawn straight by the load");
+                               subject + " is not drawn straight by the load");
             case JointType::Slider:
             case JointType::ConeTwist:
             case JointType::SixDof:
             case JointType::Wheel:
                 break;
         }
-        violated(who + " does not hold " + bodyTitle(scenario_, index_) + " at rest");
+        violated(subject + " does not hold " + bodyTitle(scenario_, index_) + " at rest");
     }
 
     const Scenario& scenario_;

@@ -73,14 +73,14 @@ class CartPendulum : public Reference {
     }
 
     void buildMotion() {
-        const std::string who = bodyTitle(scenario_, pendulum_);
+        const std::string subject = bodyTitle(scenario_, pendulum_);
         arm_ = centerOfMass(pendulum()) - hinge_;
         double inertia = pendulum().massProperties.inertia(2, 2);
         if (scenario_.dimension == 3) {
             const Vec3 moment = worldInertia(pendulum()) * axis_;
             inertia = dot(axis_, moment);
             require(norm(moment - inertia * axis_) <= 1e-9 * inertia,
-                    "the hinge is not along a principal axis of " + who);
+                    "the hinge is not along a principal axis of " + subject);
         }
         const double rate = dot(axis_, pendulum().angularVelocity), speed = dot(rail_, cart().velocity);
         require(norm(pendulum().angularVelocity - rate * axis_) <= 1e-9 * std::abs(rate) &&

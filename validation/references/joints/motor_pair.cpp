@@ -85,20 +85,20 @@ class MotorPair : public Reference {
                 "joint '" + joint.name + "' does not join two free bodies");
         requireOnlyJoints(scenario_, index, {&joint});
         const Body& one = body(index);
-        const std::string who = bodyTitle(scenario_, index);
+        const std::string subject = bodyTitle(scenario_, index);
         const Vec3 arm = centerOfMass(one) - anchorOf(scenario_, joint, index);
         require(norm(cross(arm, axis_)) <= 1e-9 * sizeOf(one),
-                "the hinge misses the centre of mass of " + who);
+                "the hinge misses the centre of mass of " + subject);
         double moment = one.massProperties.inertia(2, 2);
         if (scenario_.dimension == 3) {
             const Vec3 m = worldInertia(one) * axis_;
             moment = dot(axis_, m);
             require(norm(m - moment * axis_) <= 1e-9 * moment,
-                    "the hinge is not along a principal axis of " + who);
+                    "the hinge is not along a principal axis of " + subject);
         }
         (index == a_ ? momentA_ : momentB_) = moment;
         const Vec3 w = one.angularVelocity;
-        require(norm(cross(w, axis_)) <= 1e-9 * norm(w), who + " does not spin about the hinge");
+        require(norm(cross(w, axis_)) <= 1e-9 * norm(w), subject + " does not spin about the hinge");
     }
 
     const Scenario& scenario_;

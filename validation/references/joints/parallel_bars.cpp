@@ -123,7 +123,7 @@ class ParallelBars : public Reference {
 
     void addInertia(int index, Vec3 g, Vec3& weighted, double& moment) {
         const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
-        const std::string who = bodyTitle(scenario_, index);
+        const std::string subject = bodyTitle(scenario_, index);
         require(negligible(norm(gravityOn(scenario_, index) - g), norm(g)),
                 "gravity acts differently on the bodies");
         const Crank* crank = crankOf(index);
@@ -140,7 +140,7 @@ class ParallelBars : public Reference {
         const double turning = 1e-6 * std::abs(rate_) + 1e-12 * falling / norm(arm_);
         require(norm(body.velocity - v) <= 1e-6 * std::max(norm(v), norm(body.velocity)) + 1e-12 * falling &&
                     norm(body.angularVelocity - (crank ? rate_ : 0.0) * axis_) <= turning,
-                "the velocity of " + who + " does not fit the parallelogram");
+                "the velocity of " + subject + " does not fit the parallelogram");
     }
 
     /// Time between the first two passages of the first crank through the lowest point, the same way.

@@ -211,7 +211,7 @@ class PendulumChain : public Reference {
 
     void addLink(std::size_t i, int index, OdeState& start) {
         const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
-        const std::string who = bodyTitle(scenario_, index);
+        const std::string subject = bodyTitle(scenario_, index);
         const Vec3 before = anchorOf(scenario_, *joints_[i], index), com = centerOfMass(body);
         const Vec3 next = i + 1 < joints_.size() ? anchorOf(scenario_, *joints_[i + 1], index) : com;
         Link link;
@@ -231,15 +231,15 @@ class PendulumChain : public Reference {
                         negligible(dot(axis_, g), norm(g)) &&
                         std::abs(dot(axis_, com - anchor_)) + std::abs(dot(axis_, before - anchor_)) <=
                             1e-9 * norm(com - before),
-                    who + " does not stay in the plane of the chain");
+                    subject + " does not stay in the plane of the chain");
         }
         const Vec3 w = body.angularVelocity;
         require(norm(w - dot(w, axis_) * axis_) <= 1e-9 * norm(w),
-                who + " spins across the plane of the chain");
+                subject + " spins across the plane of the chain");
         const double rate = dot(w, axis_);
         const Vec3 expected = hingeVelocity_ + rate * cross(axis_, com - before);
         require(norm(body.velocity - expected) <= 1e-6 * std::max(norm(body.velocity), norm(expected)),
-                "the velocity of " + who + " does not fit its joint");
+                "the velocity of " + subject + " does not fit its joint");
         hingeVelocity_ += rate * cross(axis_, next - before);
         start[joints_.size() + i] = rate;
         links_.push_back(link);

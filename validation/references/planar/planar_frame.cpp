@@ -47,11 +47,11 @@ std::vector<SpaceCorner> cornersOf(const Scenario& scenario, const Body& body) {
 PlanarFrame::PlanarFrame(const Scenario& scenario, int index, int floor)
     : body_(scenario.bodies[static_cast<std::size_t>(index)]),
       plane_(planeOf(scenario, floor, centerOfMass(body_))) {
-    const std::string who = bodyTitle(scenario, index);
+    const std::string subject = bodyTitle(scenario, index);
     requireUndisturbed(scenario, index, {.constantForces = true});
     requireContact(scenario, index, floor);
     requireStill(scenario, floor);
-    require(!body_.shapes.empty(), who + " has no shape");
+    require(!body_.shapes.empty(), subject + " has no shape");
     above_ = plane_.normal;
     chooseAxis(scenario);
     along_ = cross(above_, axis_);
@@ -62,12 +62,12 @@ PlanarFrame::PlanarFrame(const Scenario& scenario, int index, int floor)
     const double fast = norm(v) + sizeOf(body_) * norm(w);
     require(std::abs(dot(v, axis_)) <= 1e-9 * fast && norm(w - dot(w, axis_) * axis_) <= 1e-9 * norm(w) &&
                 std::abs(dot(g, axis_)) <= 1e-9 * norm(g),
-            who + " does not move in a plane across the floor");
+            subject + " does not move in a plane across the floor");
     double moment = body_.massProperties.inertia(2, 2);
     if (scenario.dimension == 3) {
         const Vec3 m = worldInertia(body_) * axis_;
         moment = dot(axis_, m);
-        require(norm(m - moment * axis_) <= 1e-9 * moment, who + " does not turn about a principal axis");
+        require(norm(m - moment * axis_) <= 1e-9 * moment, subject + " does not turn about a principal axis");
     }
     setup_.mass = body_.massProperties.mass;
     setup_.inertia = moment;
@@ -77,9 +77,9 @@ PlanarFrame::PlanarFrame(const Scenario& scenario, int index, int floor)
     const auto pair = pairCoefficients(scenario, body_.shapes[0].material, plane_.material);
     for (const auto& shape : body_.shapes) {
         const auto one = pairCoefficients(scenario, shape.material, plane_.material);
-        require(one.friction == pair.friction, who + " has shapes of different friction");
+        require(one.friction == pair.friction, subject + " has shapes of different friction");
         require(holdingFriction(one) == one.friction,
-                "the static friction of " + who +
+                "the static friction of " + subject +
                     " is above that of sliding, which this motion from event to " + "event does not know");
     }
     setup_.friction = pair.friction;

@@ -28,7 +28,7 @@ class BallInCylinder : public Reference {
           ball_(ballOf(scenario, ball)),
           body_(scenario.bodies[static_cast<std::size_t>(ball)]),
           hollow_(hollowOf(scenario, wall, ball_.center)) {
-        const std::string who = bodyTitle(scenario, ball);
+        const std::string subject = bodyTitle(scenario, ball);
         require(scenario.dimension == 3, "a ball in a cylinder needs three dimensions");
         requireUndisturbed(scenario, ball);
         requireContact(scenario, ball, wall);
@@ -41,23 +41,23 @@ class BallInCylinder : public Reference {
         out_ = unit(hollow_.across(ball_.center));
         along_ = cross(up_, out_);
         require(std::abs(norm(hollow_.across(ball_.center)) - reach_) <= 1e-4 * hollow_.radius,
-                who + " does not touch the cylinder");
+                subject + " does not touch the cylinder");
         rate_ = dot(ball_.velocity, along_) / reach_;
         rise_ = dot(ball_.velocity, up_);
-        require(rate_ != 0.0, who + " does not run round the cylinder");
+        require(rate_ != 0.0, subject + " does not run round the cylinder");
         spin_ = dot(ball_.spin, out_);
         const Vec3 spin =
             spin_ * out_ + (rise_ / ball_.radius) * along_ - (reach_ * rate_ / ball_.radius) * up_;
         require(std::abs(dot(ball_.velocity, out_)) <= 1e-6 * norm(ball_.velocity) &&
                     norm(ball_.spin - spin) <= 1e-6 * norm(spin),
-                who + " does not roll at the start: its spin would be " + shown(spin, 3));
+                subject + " does not roll at the start: its spin would be " + shown(spin, 3));
         nu_ = std::abs(rate_) * std::sqrt(ball_.k / (1 + ball_.k));
         middle_ = -ball_.radius * spin_ / rate_ - gravity_ / (ball_.k * rate_ * rate_);
         const double swing = std::hypot(middle_, rise_ / nu_);
         const double mu = holdingFriction(pairCoefficients(scenario, ball_.material, hollow_.material));
         require(gravity_ + nu_ * nu_ * swing <= mu * reach_ * rate_ * rate_,
-                who + " slips: friction is too small for its speed");
-        requireWall(wall, swing, who);
+                subject + " slips: friction is too small for its speed");
+        requireWall(wall, swing, subject);
         const OdeRhs turn = [this](Real t, const OdeState& y, OdeState& d) {
             const Real33 m = rotationOf(y[0], y[1], y[2], y[3]);
             quaternionRate(y, 0, transposed(m, real3(spinAt(static_cast<double>(t)))), d);
@@ -108,7 +108,7 @@ class BallInCylinder : public Reference {
                (climbAt(t) / ball_.radius) * cross(up_, out) - (reach_ * rate_ / ball_.radius) * up_;
     }
     /// The wall reaches from the lowest to the highest point of the way.
-    void requireWall(int index, double swing, const std::string& who) const {
+    void requireWall(int index, double swing, const std::string& subject) const {
         const Body& wall = scenario_.bodies[static_cast<std::size_t>(index)];
         const auto& mesh = std::get<scenario::TriangleMesh>(wall.shapes[0].geometry);
         double low = 1e300, high = -1e300;
@@ -117,7 +117,7 @@ class BallInCylinder : public Reference {
             low = std::min(low, h);
             high = std::max(high, h);
         }
-        require(low <= middle_ - swing && high >= middle_ + swing, who + " leaves the cylinder");
+        require(low <= middle_ - swing && high >= middle_ + swing, subject + " leaves the cylinder");
     }
 
     const Scenario& scenario_;

@@ -25,7 +25,7 @@ class BallInTrough : public Reference {
           ball_(ballOf(scenario, ball)),
           body_(scenario.bodies[static_cast<std::size_t>(ball)]),
           hollow_(hollowOf(scenario, trough, ball_.center)) {
-        const std::string who = bodyTitle(scenario, ball);
+        const std::string subject = bodyTitle(scenario, ball);
         requireUndisturbed(scenario, ball);
         requireContact(scenario, ball, trough);
         const Vec3 g = gravityOn(scenario, ball);
@@ -36,26 +36,27 @@ class BallInTrough : public Reference {
         const Vec3 out = hollow_.across(ball_.center);
         reach_ = hollow_.radius - ball_.radius;
         require(reach_ > 0.0 && std::abs(norm(out) - reach_) <= 1e-4 * hollow_.radius,
-                who + " does not touch the trough");
+                subject + " does not touch the trough");
         const double angle = std::atan2(dot(out, side_), dot(out, down_));
         const Vec3 along = cross(hollow_.axis, unit(out));
         const double speed = dot(ball_.velocity, along), rate = speed / reach_;
         require(norm(ball_.velocity - speed * along) <= 1e-6 * norm(ball_.velocity),
-                who + " does not move along the trough's wall");
+                subject + " does not move along the trough's wall");
         const double mu = holdingFriction(pairCoefficients(scenario, ball_.material, hollow_.material));
         rolls_ = mu > 0.0;
         const double k = rolls_ ? ball_.k : 0.0;
         const Vec3 spin = rolls_ ? (-reach_ / ball_.radius * rate) * hollow_.axis : Vec3{};
-        require(norm(ball_.spin - spin) <= 1e-6 * (norm(spin) + norm(ball_.spin)),
-                who + " does not roll at the start: its spin would be " + shown(spin, scenario.dimension));
+        require(
+            norm(ball_.spin - spin) <= 1e-6 * (norm(spin) + norm(ball_.spin)),
+            subject + " does not roll at the start: its spin would be " + shown(spin, scenario.dimension));
         swing_ = Swing(std::sqrt(norm(g) / ((1 + k) * reach_)), angle, rate);
-        require(swing_.parameter() < 0.5, who + " rises above the trough's axis");
+        require(swing_.parameter() < 0.5, subject + " rises above the trough's axis");
         for (int i = 0; rolls_ && i <= 2000; ++i) {
             const auto s = swing_.at(runEnd(scenario) * i / 2000);
             const auto th = static_cast<double>(s.angle), w = static_cast<double>(s.rate);
             const double load = norm(g) * std::cos(th) + reach_ * w * w;
             require(k / (1 + k) * norm(g) * std::abs(std::sin(th)) <= mu * load,
-                    who + " slips: friction is too small for the slope");
+                    subject + " slips: friction is too small for the slope");
         }
     }
     std::vector<int> bodies() const override { return {ball_.body}; }

@@ -33,7 +33,7 @@ class BallOffBall : public Reference {
         : scenario_(scenario),
           ball_(ballOf(scenario, index)),
           body_(scenario.bodies[static_cast<std::size_t>(index)]) {
-        const std::string who = bodyTitle(scenario, index);
+        const std::string subject = bodyTitle(scenario, index);
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, base);
         const Body& fixed = scenario.bodies[static_cast<std::size_t>(base)];
@@ -43,24 +43,24 @@ class BallOffBall : public Reference {
         middle_ = fixed.pose * fixed.shapes[0].pose.position;
         const Vec3 g = gravityOn(scenario, index), from = ball_.center - middle_;
         pull_ = norm(g);
-        require(pull_ > 0.0, "nothing pulls " + who);
+        require(pull_ > 0.0, "nothing pulls " + subject);
         up_ = -unit(g);
         distance_ = norm(from);
         require(std::abs(distance_ - std::get<scenario::Sphere>(fixed.shapes[0].geometry).radius -
                          ball_.radius) <= 1e-6 * ball_.radius,
-                who + " does not touch the fixed ball");
+                subject + " does not touch the fixed ball");
         const auto pair = pairCoefficients(scenario, ball_.material, fixed.shapes[0].material);
         mu_ = pair.friction;
         holds_ = holdingFriction(pair);
         side_ = unit(from - dot(from, up_) * up_);
-        require(side_ != Vec3{}, who + " stands on the top: nothing says which way it goes");
+        require(side_ != Vec3{}, subject + " stands on the top: nothing says which way it goes");
         axis_ = cross(up_, side_);  // positive spin rolls down along side_
         const double angle = std::atan2(dot(from, side_), dot(from, up_));
         const Vec3 along = std::cos(angle) * side_ - std::sin(angle) * up_, v = ball_.velocity,
                    w = ball_.spin;
         require(norm(v - dot(v, along) * along) <= 1e-9 * norm(v) &&
                     norm(w - dot(w, axis_) * axis_) <= 1e-9 * norm(w),
-                who + " does not move along the surface in the plane of gravity");
+                subject + " does not move along the surface in the plane of gravity");
         follow({angle, dot(v, along) / distance_, 0, dot(w, axis_)});
     }
     std::vector<int> bodies() const override { return {ball_.body}; }

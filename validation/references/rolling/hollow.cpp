@@ -16,8 +16,8 @@ struct Facets {
 };
 
 Facets facetsOf(const Body& body) {
-    const std::string who = "body '" + body.name + "'";
-    require(body.shapes.size() == 1, who + " is not a single surface");
+    const std::string subject = "body '" + body.name + "'";
+    require(body.shapes.size() == 1, subject + " is not a single surface");
     const Pose pose = body.pose * body.shapes[0].pose;
     Facets facets;
     if (const auto* chain = std::get_if<scenario::Chain>(&body.shapes[0].geometry)) {
@@ -27,7 +27,7 @@ Facets facetsOf(const Body& body) {
         return facets;
     }
     const auto* mesh = std::get_if<scenario::TriangleMesh>(&body.shapes[0].geometry);
-    require(mesh != nullptr, who + " is neither a chain of segments nor a mesh of triangles");
+    require(mesh != nullptr, subject + " is neither a chain of segments nor a mesh of triangles");
     for (const Vec3 v : mesh->vertices) facets.corners.push_back(pose * v);
     for (const auto& t : mesh->triangles) {
         const auto at = [&](std::size_t k) { return facets.corners[static_cast<std::size_t>(t[k])]; };
@@ -48,8 +48,8 @@ Vec3 circleCenter(Vec3 a, Vec3 b, Vec3 c, Vec3 axis) {
 
 Hollow hollowOf(const Scenario& scenario, int base, Vec3 inside) {
     const Body& body = scenario.bodies[static_cast<std::size_t>(base)];
-    const std::string who = bodyTitle(scenario, base);
-    require(body.type == scenario::BodyType::Static, who + " is not static");
+    const std::string subject = bodyTitle(scenario, base);
+    require(body.type == scenario::BodyType::Static, subject + " is not static");
     const Facets facets = facetsOf(body);
     Hollow hollow;
     hollow.material = body.shapes[0].material;
@@ -61,11 +61,11 @@ Hollow hollowOf(const Scenario& scenario, int base, Vec3 inside) {
             const Vec3 c = cross(facets.normals[0], n);
             if (norm(c) > norm(widest)) widest = c;
         }
-        require(norm(widest) > 0.1, who + " is not hollow");
+        require(norm(widest) > 0.1, subject + " is not hollow");
         hollow.axis = unit(widest);
     }
     for (const Vec3 n : facets.normals)
-        require(std::abs(dot(n, hollow.axis)) <= 1e-6, who + " is not straight along one axis");
+        require(std::abs(dot(n, hollow.axis)) <= 1e-6, subject + " is not straight along one axis");
     // Three corners that lie apart across the axis.
     const auto apart = [&](Vec3 a, Vec3 b) { return norm(cross(b - a, hollow.axis)); };
     const Vec3 a = facets.corners.front();
@@ -74,12 +74,12 @@ Hollow hollowOf(const Scenario& scenario, int base, Vec3 inside) {
         if (apart(a, p) > apart(a, b)) b = p;
     for (const Vec3 p : facets.corners)
         if (std::min(apart(a, p), apart(b, p)) > std::min(apart(a, c), apart(b, c))) c = p;
-    require(apart(a, c) > 0.0, who + " is not hollow");
+    require(apart(a, c) > 0.0, subject + " is not hollow");
     hollow.center = circleCenter(a, b, c, hollow.axis);
     const double outer = norm(hollow.across(a));
     for (const Vec3 p : facets.corners)
         require(std::abs(norm(hollow.across(p)) - outer) <= 1e-6 * outer,
-                "the corners of " + who + " are not on one cylinder");
+                "the corners of " + subject + " are not on one cylinder");
     // A facet's distance from the axis is R cos(d/2).
     double nearest = outer;
     for (std::size_t k = 0; k < facets.normals.size(); ++k) {
@@ -91,9 +91,9 @@ Hollow hollowOf(const Scenario& scenario, int base, Vec3 inside) {
         nearest = std::min(nearest, std::abs(dot(facets.normals[k], hollow.across(corner))));
     }
     hollow.facet = 2 * std::acos(std::min(1.0, nearest / outer));
-    require(hollow.facet <= 0.035, "the facets of " + who + " are wider than 2 degrees");
+    require(hollow.facet <= 0.035, "the facets of " + subject + " are wider than 2 degrees");
     hollow.radius = nearest;
-    require(norm(hollow.across(inside)) < outer, "nothing is inside " + who);
+    require(norm(hollow.across(inside)) < outer, "nothing is inside " + subject);
     return hollow;
 }
 

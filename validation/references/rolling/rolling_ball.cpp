@@ -19,17 +19,18 @@ RollingBall::RollingBall(const Scenario& scenario, int index, int floor)
       ball_(ballOf(scenario, index)),
       plane_(planeOf(scenario, floor, ball_.center)),
       slip_({}, 0.0, {}, 0.0) {
-    const std::string who = bodyTitle(scenario, index);
+    const std::string subject = bodyTitle(scenario, index);
     requireUndisturbed(scenario, index);
     requireContact(scenario, index, floor);
     requireStill(scenario, floor);
     require(std::abs(plane_.height(ball_.center) - ball_.radius) <= 1e-4 * ball_.radius,
-            who + " does not start in contact");
+            subject + " does not start in contact");
     const Vec3 n = plane_.normal, g = gravityOn(scenario, index);
     const double load = -dot(g, n);
-    require(load > 0.0, "gravity does not press " + who + " against the floor");
+    require(load > 0.0, "gravity does not press " + subject + " against the floor");
     const double fast = norm(ball_.velocity) + ball_.radius * norm(ball_.spin);
-    require(negligible(dot(ball_.velocity, n), fast), "the velocity of " + who + " is not along the floor");
+    require(negligible(dot(ball_.velocity, n), fast),
+            "the velocity of " + subject + " is not along the floor");
     pull_ = g + load * n;
     if (negligible(norm(pull_), norm(g))) pull_ = {};
     const auto pair = pairCoefficients(scenario, ball_.material, plane_.material);
@@ -43,7 +44,7 @@ RollingBall::RollingBall(const Scenario& scenario, int index, int floor)
     const double end = runEnd(scenario);
     for (int k = 1; k <= 8; ++k)
         require(plane_.holds(at(scenario.duration * k / 8.0).center),
-                who + " rolls over the edge of the floor");
+                subject + " rolls over the edge of the floor");
     // Spin direction at a few times; spin = w0 + n x (...)/(k r).
     const Vec3 reference = ball_.spin;
     for (int k = 0; k <= 16; ++k) {

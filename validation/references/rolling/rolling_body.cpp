@@ -37,12 +37,12 @@ class RollingBody : public Reference {
           index_(index),
           body_(scenario.bodies[static_cast<std::size_t>(index)]),
           plane_(planeOf(scenario, floor, centerOfMass(body_))) {
-        const std::string who = bodyTitle(scenario, index);
+        const std::string subject = bodyTitle(scenario, index);
         require(scenario.dimension == 3, "a rolling body needs three dimensions");
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, floor);
         requireStill(scenario, floor);
-        readShape(who);
+        readShape(subject);
         const auto pair = pairCoefficients(scenario, body_.shapes[0].material, plane_.material);
         mu_ = pair.friction;
         holds_ = holdingFriction(pair);
@@ -50,7 +50,7 @@ class RollingBody : public Reference {
         inertia_ = real33(body_.massProperties.inertia);
         normal_ = real3(plane_.normal);
         gravity_ = real3(gravityOn(scenario, index));
-        start(who);
+        start(subject);
     }
     std::vector<int> bodies() const override { return {index_}; }
     double validUntil() const override { return validUntil_; }
@@ -109,8 +109,8 @@ class RollingBody : public Reference {
         Real3 gamma, gammaRate, w, r, rRate;
     };
 
-    void readShape(const std::string& who) {
-        require(body_.shapes.size() == 1, who + " has more than one shape");
+    void readShape(const std::string& subject) {
+        require(body_.shapes.size() == 1, subject + " has more than one shape");
         const auto& shape = body_.shapes[0];
         center_ = real3(shape.pose.position - body_.massProperties.centerOfMass);
         if (const auto* s = std::get_if<scenario::Sphere>(&shape.geometry)) {
@@ -121,7 +121,7 @@ class RollingBody : public Reference {
             half_ = c->halfLength;
             axis_ = real3(rotate(shape.pose.orientation, {0, 1, 0}));
         } else {
-            violated(who + " is neither a ball nor a cylinder");
+            violated(subject + " is neither a ball nor a cylinder");
         }
     }
 
@@ -184,17 +184,18 @@ class RollingBody : public Reference {
         return push;
     }
 
-    void start(const std::string& who) {
+    void start(const std::string& subject) {
         const Quat q = scenario::normalized(body_.pose.orientation);
         w0_ = rotateInverse(q, body_.angularVelocity);
         const Vec3 com = centerOfMass(body_), v = rotateInverse(q, body_.velocity);
         OdeState y{q.w, q.x, q.y, q.z, w0_.x, w0_.y, w0_.z, com.x, com.y, com.z, v.x, v.y, v.z};
         const Frame f = frameOf(y);
         const Real gap = dot(normal_, real3(com)) - plane_.offset + dot(f.gamma, f.r);
-        require(std::abs(gap) <= 1e-6L * radius_, who + " does not touch the floor at the start");
+        require(std::abs(gap) <= 1e-6L * radius_, subject + " does not touch the floor at the start");
         const Real3 u = real3(v) + cross(f.w, f.r);
         const Real fast = norm(real3(v)) + radius_ * norm(f.w);
-        require(std::abs(dot(f.gamma, u)) <= 1e-6L * fast, "the contact of " + who + " moves off the floor");
+        require(std::abs(dot(f.gamma, u)) <= 1e-6L * fast,
+                "the contact of " + subject + " moves off the floor");
         rolls_ = norm(u) <= 1e-6L * fast;
         slip0_ = norm(u);
         const auto rhs = [this](Real, const OdeState& s, OdeState& d) {
@@ -228,7 +229,7 @@ class RollingBody : public Reference {
         const Real last = std::min(end, scenario_.duration);
         const auto held = solution_.lastTimeOf([this](const OdeState& at) { return holds(at); }, last);
         require(held && *held > 0,
-                who + (rolls_ ? " slips: friction does not hold the contact" : " leaves the floor"));
+                subject + (rolls_ ? " slips: friction does not hold the contact" : " leaves the floor"));
         if (*held < last) validUntil_ = static_cast<double>(*held);
     }
 

@@ -26,7 +26,7 @@ class Turntable : public Reference {
           body_(scenario.bodies[static_cast<std::size_t>(index)]),
           ball_(ballOf(scenario, index)),
           plane_(planeOf(scenario, table, ball_.center)) {
-        const std::string who = bodyTitle(scenario, index);
+        const std::string subject = bodyTitle(scenario, index);
         const Body& disc = scenario.bodies[static_cast<std::size_t>(table)];
         require(scenario.dimension == 3, "a turntable needs three dimensions");
         requireUndisturbed(scenario, index);
@@ -40,20 +40,20 @@ class Turntable : public Reference {
                 "the table does not turn about its normal at a fixed place");
         pivot_ = centerOfMass(disc);
         require(std::abs(plane_.height(ball_.center) - ball_.radius) <= 1e-4 * ball_.radius,
-                who + " does not start in contact");
+                subject + " does not start in contact");
         const Vec3 slip = ball_.velocity - ball_.radius * cross(ball_.spin, n) -
                           tableRate_ * cross(n, ball_.center - pivot_);
         const double fast = norm(ball_.velocity) + ball_.radius * norm(ball_.spin) +
                             std::abs(tableRate_) * norm(ball_.center - pivot_);
-        require(norm(slip) <= 1e-6 * fast, who + " slips at the start; it rolls at angular_velocity " +
+        require(norm(slip) <= 1e-6 * fast, subject + " slips at the start; it rolls at angular_velocity " +
                                                shown(ball_.spin - cross(slip, n) / ball_.radius, 3));
         rate_ = ball_.k / (1.0 + ball_.k) * tableRate_;
         const double mu = holdingFriction(pairCoefficients(scenario, ball_.material, plane_.material));
         require(std::abs(rate_) * norm(ball_.velocity) <= mu * load,
-                who + " needs more friction than there is to roll");
+                subject + " needs more friction than there is to roll");
         const double end = runEnd(scenario);
         for (int k = 0; k <= 64; ++k)
-            require(plane_.holds(centerAt(scenario.duration * k / 64.0)), who + " rolls off the table");
+            require(plane_.holds(centerAt(scenario.duration * k / 64.0)), subject + " rolls off the table");
         const auto rhs = [this](Real t, const OdeState& y, OdeState& d) {
             const Vec3 s = spinAt(static_cast<double>(t));
             d[0] = (-s.x * y[1] - s.y * y[2] - s.z * y[3]) / 2;

@@ -15,17 +15,18 @@ FlatMotion::FlatMotion(const Scenario& scenario, int index, int floor, const Pla
       across(cross(plane.normal, along)),
       centre(centerOfMass(body)),
       support(supportOf(scenario, index, plane)) {
-    const std::string who = bodyTitle(scenario, index);
-    require(scenario.dimension == 3, who + " slides and spins in three dimensions only");
+    const std::string subject = bodyTitle(scenario, index);
+    require(scenario.dimension == 3, subject + " slides and spins in three dimensions only");
     requireUndisturbed(scenario, index);
     requireContact(scenario, index, floor);
     requireStill(scenario, floor);
-    require(std::abs(support.gap) <= 1e-4 * sizeOf(body), who + " does not stand on the floor");
+    require(std::abs(support.gap) <= 1e-4 * sizeOf(body), subject + " does not stand on the floor");
     const Vec3 w = body.angularVelocity, moment = worldInertia(body) * normal;
-    require(norm(cross(w, normal)) <= 1e-9 * norm(w), who + " does not spin about the normal");
-    require(std::abs(dot(body.velocity, normal)) <= 1e-9 * norm(body.velocity), who + " leaves the floor");
+    require(norm(cross(w, normal)) <= 1e-9 * norm(w), subject + " does not spin about the normal");
+    require(std::abs(dot(body.velocity, normal)) <= 1e-9 * norm(body.velocity),
+            subject + " leaves the floor");
     require(norm(moment - dot(normal, moment) * normal) <= 1e-9 * norm(moment),
-            "the normal is not along a principal axis of " + who);
+            "the normal is not along a principal axis of " + subject);
     mass = body.massProperties.mass;
     inertia = dot(normal, moment);
     friction = pairCoefficients(scenario, support.material, plane.material).friction;

@@ -53,7 +53,7 @@ class PushedBlocks : public Reference {
 
     void add(int index, int floor) {
         const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
-        const std::string who = bodyTitle(scenario_, index);
+        const std::string subject = bodyTitle(scenario_, index);
         requireUndisturbed(scenario_, index, {.constantForces = true});
         requireContact(scenario_, index, floor);
         requireStill(scenario_, index);
@@ -61,18 +61,18 @@ class PushedBlocks : public Reference {
         const Vec3 com = centerOfMass(body);
         const Plane plane = planeOf(scenario_, floor, com);
         const Support support = supportOf(scenario_, index, plane);
-        require(std::abs(support.gap) <= 1e-4 * sizeOf(body), who + " does not stand on the floor");
+        require(std::abs(support.gap) <= 1e-4 * sizeOf(body), subject + " does not stand on the floor");
         const double mass = body.massProperties.mass;
         Vec3 force = mass * gravityOn(scenario_, index);
         for (const auto& f : scenario_.forces) {
             const auto* push = std::get_if<scenario::ConstantForce>(&f);
             if (!push || push->body != index) continue;
             require(push->start == 0.0 && push->end >= scenario_.duration && push->torque == Vec3{},
-                    "the force on " + who + " has a torque, or does not last from the start to the end");
+                    "the force on " + subject + " has a torque, or does not last from the start to the end");
             force += push->force;
         }
         const double load = -dot(force, plane.normal);
-        require(load > 0.0, who + " is lifted off the floor");
+        require(load > 0.0, subject + " is lifted off the floor");
         const Vec3 along = force + load * plane.normal;
         const auto pair = pairCoefficients(scenario_, support.material, plane.material);
         const double holds = std::max(pair.staticFriction, pair.friction) * load;
@@ -82,7 +82,7 @@ class PushedBlocks : public Reference {
         const Vec3 center =
             com - plane.height(com) * plane.normal + (plane.height(com) * friction / load) * unit(along);
         require(supportMargin(support.points, center, plane.normal, scenario_.dimension) >= 0.0,
-                who + " tips over");
+                subject + " tips over");
         pushed_.push_back({index, com, stays ? Vec3{} : (1.0 / mass) * (along - friction * unit(along))});
     }
 

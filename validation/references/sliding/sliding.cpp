@@ -18,21 +18,21 @@ SlidingBody::SlidingBody(const Scenario& scenario, int index, int floor)
       plane_(planeOf(scenario, floor, centerOfMass(*body_))),
       com_(centerOfMass(*body_)),
       slide_({}, 0.0, {}, 0.0) {
-    const std::string who = bodyTitle(scenario, index);
+    const std::string subject = bodyTitle(scenario, index);
     requireUndisturbed(scenario, index);
     requireContact(scenario, index, floor);
     requireStill(scenario, floor);
     const Support support = supportOf(scenario, index, plane_);
     require(std::abs(support.gap) <= 1e-4 * sizeOf(*body_),
-            who + " does not start in contact with " + bodyTitle(scenario, floor));
+            subject + " does not start in contact with " + bodyTitle(scenario, floor));
     const Vec3 g = gravityOn(scenario, index);
     load_ = -dot(g, plane_.normal);
-    require(load_ > 0.0, "gravity does not press " + who + " against " + bodyTitle(scenario, floor));
+    require(load_ > 0.0, "gravity does not press " + subject + " against " + bodyTitle(scenario, floor));
     pull_ = g + load_ * plane_.normal;
     if (negligible(norm(pull_), norm(g))) pull_ = {};
-    require(norm(body_->angularVelocity) == 0.0, who + " starts with a spin");
+    require(norm(body_->angularVelocity) == 0.0, subject + " starts with a spin");
     require(negligible(dot(body_->velocity, plane_.normal), norm(body_->velocity)),
-            "the velocity of " + who + " is not along " + bodyTitle(scenario, floor));
+            "the velocity of " + subject + " is not along " + bodyTitle(scenario, floor));
     const auto pair = pairCoefficients(scenario, support.material, plane_.material);
     mu_ = pair.friction;
     isOneCoefficient_ = holdingFriction(pair) == mu_;
@@ -40,7 +40,7 @@ SlidingBody::SlidingBody(const Scenario& scenario, int index, int floor)
     requireNoTipping(support);
     for (const double t : {0.25, 0.5, 0.75, 1.0})
         require(plane_.holds(com_ + slide_.at(t * scenario.duration).displacement),
-                who + " slides over the edge of " + bodyTitle(scenario, floor));
+                subject + " slides over the edge of " + bodyTitle(scenario, floor));
 }
 
 void SlidingBody::requireNoTipping(const Support& support) const {

@@ -52,12 +52,12 @@ class SpinningDisc : public Reference {
   public:
     SpinningDisc(const Scenario& scenario, int index, const FlatMotion& motion, double height)
         : scenario_(scenario), index_(index), body_(motion.body), motion_(motion) {
-        const std::string who = bodyTitle(scenario, index);
+        const std::string subject = bodyTitle(scenario, index);
         const Vec3 n = motion_.normal, g = gravityOn(scenario, index);
         require(norm(g) > 0.0 && norm(cross(g, n)) <= 1e-9 * norm(g), "the floor is not level");
         const bool isFlat = std::abs(height) <= 1e-3 * sizeOf(body_), spins = norm(body_.velocity) == 0.0;
         require(spins || isFlat,
-                "the centre of mass of " + who + " is off the floor: its pressure is not even");
+                "the centre of mass of " + subject + " is off the floor: its pressure is not even");
         findFeet(isFlat, spins);
         push_ = motion_.friction * norm(g);
         follow(motion_.start());
@@ -70,7 +70,7 @@ class SpinningDisc : public Reference {
     using Foot = FlatMotion::Place;
 
     void findFeet(bool isFlat, bool spins) {
-        const std::string who = bodyTitle(scenario_, index_);
+        const std::string subject = bodyTitle(scenario_, index_);
         const auto* cylinder =
             body_.shapes.size() == 1 ? std::get_if<scenario::Cylinder>(&body_.shapes[0].geometry) : nullptr;
         if (cylinder) {
@@ -78,9 +78,9 @@ class SpinningDisc : public Reference {
                 rotate(body_.pose.orientation, rotate(body_.shapes[0].pose.orientation, {0, 1, 0}));
             const Vec3 n = motion_.normal,
                        middle = body_.pose * body_.shapes[0].pose.position - motion_.centre;
-            require(norm(cross(axis, n)) <= 1e-6, who + " does not stand on its end");
+            require(norm(cross(axis, n)) <= 1e-6, subject + " does not stand on its end");
             require(norm(middle - dot(middle, n) * n) <= 1e-9 * cylinder->radius,
-                    "the centre of mass of " + who + " is off its axis");
+                    "the centre of mass of " + subject + " is off its axis");
             radius_ = cylinder->radius;
             return;
         }
@@ -95,11 +95,11 @@ class SpinningDisc : public Reference {
             least = std::min(least, reach);
         }
         const auto n = static_cast<Real>(feet_.size());
-        require(n >= 3, who + " stands on fewer than three points");
+        require(n >= 3, subject + " stands on fewer than three points");
         require(std::hypot(middle.x, middle.y) <= 1e-6L * n * radius_,
-                "the feet of " + who + " are not balanced about its centre of mass");
+                "the feet of " + subject + " are not balanced about its centre of mass");
         require(!spins || radius_ - least <= 1e-6L * radius_ || isFlat,
-                "the feet of " + who + " are not on one circle");
+                "the feet of " + subject + " are not on one circle");
     }
 
     /// Slowest slip of a foot; of a disc the greater of its two speeds.

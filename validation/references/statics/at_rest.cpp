@@ -42,8 +42,9 @@ class AtRest : public Reference {
   private:
     void check(int index) const {
         const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
-        const std::string who = bodyTitle(scenario_, index);
-        require(body.velocity == Vec3{} && body.angularVelocity == Vec3{}, who + " starts with a velocity");
+        const std::string subject = bodyTitle(scenario_, index);
+        require(body.velocity == Vec3{} && body.angularVelocity == Vec3{},
+                subject + " starts with a velocity");
         requireUndisturbed(scenario_, index,
                            {.joints = true, .springs = true, .drag = true, .damping = true});
         if (gravityOn(scenario_, index) == Vec3{}) return;
@@ -57,7 +58,7 @@ class AtRest : public Reference {
         for (const auto& force : scenario_.forces)
             if (const auto* spring = std::get_if<scenario::SpringForce>(&force))
                 held = held || spring->bodyA == index || spring->bodyB == index;
-        require(held, who + " touches nothing and would fall");
+        require(held, subject + " touches nothing and would fall");
         if (neighbours.size() == 1 && scenario_.joints.empty()) checkAlone(index, neighbours.front());
     }
 

@@ -14,9 +14,9 @@ export interface LabelledLine extends LedgerLine {
   scenarios?: string[]; // scenarios of a line gathered over a run
 }
 
-export function ledgerTable(rows: LabelledLine[], who: string): HTMLElement {
+export function ledgerTable(rows: LabelledLine[], columnHead: string): HTMLElement {
   const gathered = rows.some((l) => l.scenarios);
-  const heads = [who, 'Topic', 'Requested', 'Resolved', 'How', 'Why', ...(gathered ? ['Scenarios'] : [])];
+  const heads = [columnHead, 'Topic', 'Requested', 'Resolved', 'How', 'Why', ...(gathered ? ['Scenarios'] : [])];
   const where = (names: string[]) =>
     el(
       'td',

@@ -12,7 +12,7 @@ import { placeQuery, worstPlace } from '../worst.ts';
 
 interface Row {
   scenario: string;
-  who: string;
+  label: string;
   spec: string;
   dt: number | undefined;
   wrong: number;
@@ -29,7 +29,7 @@ function rowsOf(engine: Engine): { acted: Row[]; requested: Row[] } {
         const a = c.inRun as NonNullable<typeof c.inRun>;
         return {
           scenario: s.name,
-          who: labelOf(c.spec),
+          label: labelOf(c.spec),
           spec: c.spec,
           dt: c.dt,
           wrong: a.missed + a.spurious,
@@ -46,7 +46,7 @@ function rowsOf(engine: Engine): { acted: Row[]; requested: Row[] } {
         const spec = worstPlace(r.worst)?.spec ?? '';
         return {
           scenario: a.scenario,
-          who: r.auditor,
+          label: r.auditor,
           spec,
           dt: undefined,
           wrong: r.missed + r.spurious,
@@ -71,7 +71,7 @@ function table(rows: Row[]): Child {
       'tr',
       null,
       el('th', { class: 'sticky', scope: 'row' }, el('a', { href: scenarioLink(r.scenario) }, r.scenario)),
-      el('td', null, r.who),
+      el('td', null, r.label),
       el('td', { class: 'num' }, angle(r.normal)),
       el('td', { class: 'num' }, r.depth === null ? '—' : `${format(r.depth)} m`),
       el('td', { class: 'num' }, r.wrong ? chip('fail', r.wrong) : 0),

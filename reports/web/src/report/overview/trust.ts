@@ -89,7 +89,7 @@ function mechanismRow(m: Mechanism): HTMLElement {
   const filter = () => filterScoreboard({ mechanism: m.name });
   const list = placed(m, run.columns);
   const wrong = list.filter((s) => s.lost + (s.grades[4] ?? 0) > 0);
-  const who = (s: Placed) =>
+  const nameOf = (s: Placed) =>
     gradeChip(
       '',
       [s.column.label, ' ', el('b', null, `${s.within}/${s.scenarios}`), ' ', ratio(s.toBest)],
@@ -103,7 +103,7 @@ function mechanismRow(m: Mechanism): HTMLElement {
     el(
       'td',
       { 'data-label': 'Nearest first' },
-      m.best >= 0 ? list.slice(0, mostNamed).map(who) : el('span', { class: 'muted' }, 'no engine ranked'),
+      m.best >= 0 ? list.slice(0, mostNamed).map(nameOf) : el('span', { class: 'muted' }, 'no engine ranked'),
     ),
     el(
       'td',

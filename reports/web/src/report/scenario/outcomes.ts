@@ -87,8 +87,8 @@ export function outcomes(context: Context): HTMLElement | null {
     ),
   );
   const reasons = [...new Set(unable.map((c) => c.reason))].map((reason) => {
-    const who = unable.filter((c) => c.reason === reason).map((c) => labelOf(c.spec));
-    return el('p', null, chip('unsupported', `unsupported by ${who.join(', ')}`), reason);
+    const labels = unable.filter((c) => c.reason === reason).map((c) => labelOf(c.spec));
+    return el('p', null, chip('unsupported', `unsupported by ${labels.join(', ')}`), reason);
   });
   const table = rows.length ? scroll(el('table', { class: 'full' }, el('tbody', null, rows))) : null;
   return panel('outcomes', 'Wrong physics, bounds missed, and what did not run', reasons, table);
