@@ -24,7 +24,7 @@ inline ProxyPair orderedPair(std::uint32_t i, std::uint32_t j) {
     return i < j ? ProxyPair{i, j} : ProxyPair{j, i};
 }
 
-/// The edge length that a share q, in [0, 1), of the bounded boxes stays below [m]; 0 when there are none.
+/// The edge length that a fraction q, in [0, 1), of the bounded boxes stays below [m]; 0 when there are none.
 template <class S>
 typename S::Real quantileOfEdges(std::span<const Aabb<S>> boxes, double q,
                                  std::vector<typename S::Real>& scratch) {

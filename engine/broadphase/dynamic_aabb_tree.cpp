@@ -114,7 +114,7 @@ class Tree {
         }
     }
 
-    /// Replaces the tree by one of these leaves and boxes (by leaf), halved where they stand in their order.
+    /// Replaces the tree by one of these leaves and boxes (by leaf), halved by their places in their order.
     void build(std::span<const std::uint32_t> leaves, std::span<const Box> boxes) {
         nodes_.resize(boxes.size());
         nodes_.reserve(2 * boxes.size());

@@ -5,14 +5,13 @@
 //
 // A cell of half edge h has 2^dim children of half edge h / 2. In a plain octree a small box that crosses a
 // middle plane is stuck in a large cell; here the bounds of a cell are loose, twice as wide as the cell
-// itself
-// ([Ulrich2000], looseness k = 2), so that a box goes to the depth its size allows, wherever it stands: to a
-// cell with
+// itself ([Ulrich2000], looseness k = 2), so that a box goes to the depth its size allows, at every position:
+// to a cell with
 //     h / 2 < longest edge / 2 <= h,    the cell that holds its centre.
 // A box stays in its cell while the loose bounds hold it and its size suits, so proxies that move a little
 // cost nothing; cells without boxes below them are freed. The root doubles towards a box that it does not
 // hold. To find the pairs, each box queries the tree from the root down to its own depth: partners in larger
-// cells, and partners in cells of the same depth with a higher index. Each pair is met once. Deviation: the
+// cells, and partners in cells of the same depth with a higher index. Each pair is found once. Deviation: the
 // search prunes by the bounds of the boxes really there, renewed from the leaves up in every update, not by
 // the loose bounds (a third of the time: neighbouring loose bounds overlap, what is in them mostly does not).
 //

@@ -9,7 +9,7 @@ namespace rigor::engine {
 namespace {
 
 void sortByB(ProxyPair* begin, ProxyPair* end) {
-    if (end - begin > 24) {  // few boxes meet that many others; insertion is faster for the rest
+    if (end - begin > 24) {  // few boxes overlap that many others; insertion is faster for the rest
         std::sort(begin, end, [](const ProxyPair& p, const ProxyPair& q) { return p.b < q.b; });
         return;
     }

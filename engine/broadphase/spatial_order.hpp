@@ -16,8 +16,8 @@ namespace rigor::engine {
 /// eight such groups, and so on. First by size class, then by the place of their centres on the Morton curve
 /// [Morton1966]; then each 4096 of these are cut in half along their longest axis, and the halves again, down
 /// to eight ([Bentley1975]): half as many groups overlap as with the curve alone. Size classes: up to 8 times
-/// the median edge, up to 64 times, larger, and those without bounds; so that a floor does not stand among
-/// the boxes on it. A function of the boxes alone. No allocation once their number has stopped growing.
+/// the median edge, up to 64 times, larger, and those without bounds; so that a floor is not between the
+/// boxes on it. A function of the boxes alone. No allocation once their number has stopped growing.
 template <class S>
 class SpatialOrder {
   public:

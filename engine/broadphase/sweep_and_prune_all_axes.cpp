@@ -12,7 +12,7 @@
 //     a maximum passes left of a minimum: the intervals cease to overlap; the pair leaves the set.
 // Insertion sort exchanges exactly the inverted end points, each once, and both tests use the new boxes, so a
 // pair never enters and leaves in the same update. Minima come before maxima of equal value: touching counts.
-// Boxes without bounds need nothing special, they stand at the ends of the lists.
+// Boxes without bounds need nothing special, they are at the ends of the lists.
 //
 // Deviations: the set is a sorted array, and the pairs that enter and leave are collected and merged into it
 // once per update instead of going through a hash table (same order on every machine). When the lists are far

@@ -4,11 +4,11 @@
 // Uniform grid, hashed.
 //
 // Space is cut into cubes (2D: squares) of edge c; cell(x) = floor(x / c) by component. A box is entered in
-// every cell it meets, and only boxes of one cell are tested against each other. The grid is unbounded: cells
-// live in a hash table that is filled anew in every update by a counting sort [Teschner2003], so buckets are
-// contiguous, in the order of the proxies, and nothing needs to be deleted. A pair that shares several cells
-// is reported by one of them alone, the cell of the lowest corner of the boxes' common part
-// ([Ericson2005] section 7.1.6): no search for duplicates.
+// every cell that it overlaps, and only boxes of one cell are tested against each other. The grid is
+// unbounded: cells live in a hash table that is filled anew in every update by a counting sort
+// [Teschner2003], so buckets are contiguous, in the order of the proxies, and nothing needs to be deleted. A
+// pair that shares several cells is reported by one of them alone, the cell of the lowest corner of the
+// boxes' common part ([Ericson2005] section 7.1.6): no search for duplicates.
 //
 // Choice of c: the edge length that nine boxes in ten stay below. Boxes longer than 2c would fill many cells;
 // they are kept out of the table, and each of them queries the cells that it overlaps, or, when these are
@@ -89,7 +89,7 @@ class UniformGrid final : public BroadPhase<S> {
         return static_cast<std::size_t>(h) & mask_;
     }
 
-    /// Calls visit(cell) for each cell the box meets, in lexicographic order.
+    /// Calls visit(cell) for each cell that the box overlaps, in lexicographic order.
     template <class Visit>
     void forCells(const Box& box, Visit visit) const {
         const Cell lo = cellOf(box.min), hi = cellOf(box.max);

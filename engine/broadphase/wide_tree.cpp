@@ -3,7 +3,7 @@
 //
 // Wide tree: eight boxes per node, searched against itself.
 //
-// The boxes stand in an order that keeps neighbours together (spatial_order.hpp); every eight form a node,
+// The boxes are in an order that keeps neighbours together (spatial_order.hpp); every eight form a node,
 // every eight nodes one of the next level, up to the root: a bounding volume hierarchy in the manner of
 // [Lauterbach2009], with wide nodes stored level by level, without pointers ([Wald2008] has wide nodes and
 // why they suit vector instructions: one box is tested against the eight of a node at once). All pairs come
@@ -14,7 +14,7 @@
 // Between updates the order stays and the boxes of the nodes that hold a changed box are made anew, from the
 // leaves up. Changed is what differs from the copy of the last update: while few boxes changed, only what
 // overlaps them is searched, and the pairs of the others are kept. The boxes are sorted anew when the nodes
-// have grown by a quarter on average, or a search met half as many pairs of nodes more than the first one
+// have grown by a quarter on average, or a search visited half as many pairs of nodes more than the first one
 // after the sort.
 //
 // Deviation: the tree holds boxes in single precision, relative to the middle of the scene. Rounding keeps

@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // A tree of bounding boxes with eight children per node, and the search for its pairs of overlapping leaves
-// (wide_tree.cpp has the algorithm and the sources). Nodes lie level by level in arrays, without pointers:
-// child j of node k of level l is node 8k + j of level l - 1; the children of level 0 are the leaves.
+// (wide_tree.cpp has the algorithm and the sources). Nodes are stored level by level in arrays, without
+// pointers: child j of node k of level l is node 8k + j of level l - 1; the children of level 0 are the
+// leaves.
 #pragma once
 
 #include <array>

@@ -16,10 +16,10 @@
 //  4. The impacts of both bodies on their new ways are looked for, and so on from 3. Other bodies keep
 //     their ways. After kMaxImpacts in a step a body stays where it is until the step ends: it keeps its
 //     velocity and loses the time.
-// A pair that touches already when the search begins, or has contact rows in this step, is in the hands of
-// the solver: its impact counts only if the shapes would otherwise end up deeper in each other than a quarter
-// of their thickness. Bodies that are slow for their size are left to the contacts alone, so scenes without
-// fast bodies have the same bits as without this choice.
+// A pair that touches already when the search begins, or has contact rows in this step, is left to the
+// solver: its impact counts only if the shapes would otherwise end up deeper in each other than a quarter of
+// their thickness. Bodies that are slow for their size are left to the contacts alone, so scenes without fast
+// bodies have the same bits as without this choice.
 //
 // [Mirtich1996] section 2.3 has steps 1 and 2 for a simulation that stops all bodies at every impact; here
 // the others are not stopped, as usual in engines of fixed steps: a contact or joint of a body that collides
@@ -154,7 +154,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
             ++next;
             for (std::uint32_t j = 0; j < count; ++j) {
                 if (j == i || !boxes_[i].overlaps(boxes_[j])) continue;
-                // Two fast ones meet in the turn of the first.
+                // Two fast ones collide in the turn of the first.
                 if (j < i &&
                     std::binary_search(fast_.begin(), fast_.begin() + static_cast<std::ptrdiff_t>(next), j))
                     continue;
@@ -192,7 +192,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         candidates_.push_back(c);
     }
 
-    /// False: a body has had its share of impacts and stays behind.
+    /// False: a body has had its maximum number of impacts and loses the rest of its motion.
     bool collide(const MovedWorld<S>& world, const Candidate& hit, std::vector<ImpactEvent<S>>& events) {
         BodyArrays<S>& bodies = world.bodies;
         const ShapeSet<S>& shapes = world.contacts.shapes();

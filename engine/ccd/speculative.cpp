@@ -24,9 +24,9 @@
 // ends deeper in the other body than a quarter of their thickness, both go back to where they touch, with the
 // velocities they have.
 //
-// Cost: two times of impact per fast pair that meets. Limits: the rest of the step after the impact is lost
-// (the body is up to |v| h behind); a body that another contact deflects is not looked at again in the same
-// step and may then pass a second thin wall; a body that an impact of this step makes fast is not seen;
+// Cost: two times of impact per fast pair that collides. Limits: the rest of the step after the impact is
+// lost (the body is up to |v| h behind); a body that another contact deflects is not looked at again in the
+// same step and may then pass a second thin wall; a body that an impact of this step makes fast is not seen;
 // friction acts with the step's begin; explicit_euler moves bodies before the row acts on them, so there it
 // stops nothing.
 #include "engine/ccd/continuous_collision.hpp"

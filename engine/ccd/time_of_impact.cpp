@@ -10,17 +10,17 @@
 // n with n . (w x r) = r . (n x w), and n x w stays as it is while the body turns about w). So they cannot
 // meet before
 //     t + d / mu,
-// which is the next t; mu <= 0: they never meet. Translation meets a flat face in one step, sphere against
+// which is the next t; mu <= 0: they never touch. Translation meets a flat face in one step, sphere against
 // sphere converges quadratically, turning bodies linearly. Advancing by (d - gap/2) / mu ends between 0 and
 // `gap` apart instead of at an overlap of rounding size.
 //
-// Within `gap` it counts as met if the closest points approach. If they do not (a body that has just
+// Within `gap` it counts as touching if the closest points approach. If they do not (a body that has just
 // bounced, or stands on one end while it turns), the time goes on by a quarter of what it takes to pass
 // through the pair's thickness, so that the next look sees whether they part or meet elsewhere; such a
 // meeting is found that much late at most. The same goes for approaches too slow to matter of a pair that the
-// solver holds already: they must not hide the blow of another end.
-// Shapes that part while they are still close would take ever so many steps of d / mu; they take steps of a
-// sixteenth of their thickness, and if that leads to a meeting its time is bisected.
+// solver holds already: they must not hide the blow of another end. Shapes that part while they are still
+// close would take ever so many steps of d / mu; they take steps of a sixteenth of their thickness, and if
+// that leads to a meeting its time is bisected.
 //
 // Cost: one closest-points query per step, 2 to 10 mostly. Limit: kMaxSteps, then the time reached is the
 // result, with converged = false: nothing has been missed until then.
@@ -90,7 +90,7 @@ typename S::Real touchingGap(const MovingShape<S>& a, const MovingShape<S>& b) {
                    : m.body.p.cwiseAbs().maxCoeff() + m.boundingRadius + m.inscribedRadius;
     };
     const Real thin = std::min(a.inscribedRadius, b.inscribedRadius);
-    // 1e-3 of the thinner one: its time is that share of the time it takes to cross it. 16 roundings.
+    // 1e-3 of the thinner one: its time is that fraction of the time it takes to cross it. 16 roundings.
     return std::max(Real(1e-3) * thin,
                     Real(16) * std::numeric_limits<Real>::epsilon() * (scale(a) + scale(b)));
 }

@@ -57,7 +57,8 @@ struct Block {
     Real friction = 0;           ///< contact: Coulomb coefficient of sliding
     Real staticFriction = 0;     ///< contact: sticks up to this; read where above friction
     Real restitution = 0;        ///< contact: coefficient where it bounces in this step
-    Real appliedNormal = 0;      ///< contact: normal impulse on top of row 0's that friction may lean on
+    Real appliedNormal = 0;      ///< contact: normal impulse on top of row 0's that bounds the friction as
+                                 ///< well
     Real invMassA = 0, invMassB = 0;
     Real k11 = 0, k12 = 0, k22 = 0;  ///< contact: K of the friction rows
     std::uint32_t matrix = 0;        ///< joint: index of its inverse K

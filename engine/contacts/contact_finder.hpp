@@ -8,7 +8,7 @@
 //     outcomes     +   -   .   + ! | ...           + has a contact still, ! a new one, - has one no more
 //     counters     2 persisting, 1 ended, 1 begun | ...
 //
-// With the counters of the batches before it a batch knows where its contacts stand in the new order of the
+// With the counters of the batches before it a batch knows the places of its contacts in the new order of the
 // list, and writes them there. New contacts wait in `begun_`, in any order, until they have a slot.
 //
 // Invariant, after run(): the list is sorted by shape pair and piece, and candidate.contact is the slot of the

@@ -12,7 +12,7 @@
 //     overlap           what the bias rule makes of it (Baumgarte, soft), else 0
 // A gap with e > 0 gets no rows where it is closing faster than the threshold, or is wider than gravity alone
 // closes in a step: closing it would take the speed that the impact has to reverse, or pass on a blow that
-// has not reached it. The bodies then meet with an overlap of at most one step's motion.
+// has not reached it. The bodies then collide with an overlap of at most one step's motion.
 #include "engine/contacts/contact_rows.hpp"
 
 #include <algorithm>

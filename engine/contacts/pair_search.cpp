@@ -34,8 +34,8 @@ void PairSearch<S>::update(const ShapeSet<S>& shapes, BroadPhase<S>& broadPhase,
     count_ = count;
 }
 
-/// Remembers the pairs of boxes without a margin, to be compared with those of the next step. Fat AABBs report
-/// changes themselves: an invalid pair stands for theirs.
+/// Remembers the pairs of boxes without a margin, to be compared with those of the next step. Fat AABBs
+/// report changes themselves: an invalid pair replaces theirs.
 template <class S>
 void PairSearch<S>::take() {
     changed_ = false;

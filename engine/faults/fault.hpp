@@ -48,7 +48,7 @@ class Fault {
     /// Called after bodies have moved over h [s]; `start` are the orientations before, by dense index.
     virtual void moved(BodyArrays<S>& /*bodies*/, std::span<const typename S::Rot> /*start*/,
                        Real /*h*/) const {}
-    /// Bodies that stand still for everyone else move: what is kept of them must be found again.
+    /// Bodies that are at rest for all other bodies move: what is kept of them must be found again.
     virtual bool movesStatics() const { return false; }
 };
 

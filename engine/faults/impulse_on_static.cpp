@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The mistake: a static body has no infinite mass but that of the body it meets, and the impulse is shared.
-// Effect: with 1/m + 1/m in the effective mass a contact stops half of the approach and passes the other
-// half to the floor, which is then pushed away: the floor falls with what stands on it at g/2. Cure: inverse
-// mass and inverse inertia of a static body are zero, everywhere.
+// The mistake: a static body has no infinite mass but that of the body it collides with, and the impulse is
+// shared. Effect: with 1/m + 1/m in the effective mass a contact stops half of the approach and passes the
+// other half to the floor, which is then pushed away: the floor falls with what stands on it at g/2. Cure:
+// inverse mass and inverse inertia of a static body are zero, everywhere.
 #include "engine/faults/fault.hpp"
 
 namespace rigor::engine {

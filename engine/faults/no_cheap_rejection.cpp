@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The mistake: every pair of shapes goes to the narrow phase; no bounding volumes are compared first.
-// Effect: the results stay right, and a step costs n (n - 1) / 2 of its dearest tests.
-// Cure: bounding boxes, and a broad phase that does not look at most pairs at all.
+// Effect: the results stay right, and a step costs n (n - 1) / 2 of its most expensive tests.
+// Cure: bounding boxes, and a broad phase that skips most pairs.
 #include "engine/faults/fault.hpp"
 
 namespace rigor::engine {

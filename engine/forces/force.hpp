@@ -48,7 +48,7 @@ struct QuadraticDrag {
     typename S::Real coefficient = 0;  ///< [N s^2/m^2], >= 0
 };
 
-/// The bodies a force looks at and pushes, by dense index, and the time during which it does.
+/// The bodies that a force depends on and acts on, by dense index, and the time during which it does.
 template <class S>
 struct ForceMoment {
     double begin, end;  ///< [s]; begin < end

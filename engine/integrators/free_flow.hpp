@@ -58,7 +58,7 @@ class FreeFlow {
     std::vector<Wrench<S>> wrench;
     std::vector<Ang> turn;  ///< rotation since the start [rad], to first order where it changes its axis
 
-    // --- what the stages of an integrator share
+    // --- data shared by the stages of an integrator
     struct Rate {
         Vec p, v;        ///< rates of position [m/s] and velocity [m/s^2]
         Ang turn, spin;  ///< rates of rotation vector [rad/s] and of angular momentum or velocity

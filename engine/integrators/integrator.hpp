@@ -39,7 +39,7 @@ using MoveBodies = void (*)(BodyArrays<S>& bodies, std::span<const Velocity<S>> 
                             const Tasks& tasks);
 template <class S>
 class FreeFlow;
-/// Integrators that look at the forces more than once in a step: advances `flow` by h.
+/// Integrators that evaluate the forces more than once in a step: advances `flow` by h.
 template <class S>
 using AdvanceFlow = void (*)(FreeFlow<S>& flow, double begin, typename S::Real h);
 /// An integrator has either `move` or `advance`.

@@ -69,7 +69,7 @@ void Motion<S>::move(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
 
 namespace {
 
-/// The share of a constraint's change d of a velocity, squared norm dd, that moves the body (motion.hpp);
+/// The fraction of a constraint's change d of a velocity, squared norm dd, that moves the body (motion.hpp);
 /// ff: squared norm of what forces changed.
 template <class R>
 R movingShare(R dd, R ff) {

@@ -58,7 +58,7 @@ void advance(FreeFlow<S>& flow, double begin, typename S::Real h) {
         if (flow.isDynamic(i)) flow.velocity[i] = kicked(flow, i, flow.velocity[i], half);
         if (flow.isDynamic(i) || flow.isKinematic(i)) drift(flow, i, h);
         flow.startVelocity[i] = flow.velocity[i];  // v_1/2, and the velocity after the free rotation
-        // The torque of the start as the orientation of the end sees it: an error of order 1, times h.
+        // The torque of the start in the frame of the final orientation: an error of order 1, times h.
         if (flow.isDynamic(i)) flow.velocity[i] = kicked(flow, i, flow.velocity[i], half);
     }
     flow.evaluate(begin, end);

@@ -3,7 +3,7 @@
 //
 // Small tools of the narrow phase, private to this folder. Feature names (ManifoldPoint::feature) are built
 // here: they name geometric features (a vertex of A, a vertex of B, the crossing of two edges), never the
-// order in which an algorithm met them, so that a switch of the reference face keeps them.
+// order in which an algorithm found them, so that a switch of the reference face keeps them.
 #pragma once
 
 #include <algorithm>
@@ -25,12 +25,12 @@ using Vec3 = Eigen::Matrix<R, 3, 1>;
 template <class R>
 inline constexpr R kRounding = R(16) * std::numeric_limits<R>::epsilon();
 
-/// Hysteresis, as a share of the smaller shape's size: the axis and the deepest point of the last step stay
-/// until another is deeper, or parts more, by this. Ten times what bodies at rest rock by (the slop of
+/// Hysteresis, as a fraction of the smaller shape's size: the axis and the deepest point of the last step
+/// stay until another is deeper, or parts more, by this. Ten times what bodies at rest rock by (the slop of
 /// position correction, 1e-5 m of a body of one metre), and a tenth of a millimetre for it.
 template <class R>
 inline constexpr R kKeep = R(1e-4);
-/// The same for the spread of the points kept, as a share of itself: which of two equally wide sets it is
+/// The same for the spread of the points kept, as a fraction of itself: which of two equally wide sets it is
 /// makes no difference to a body.
 template <class R>
 inline constexpr R kKeepSpread = R(1e-2);

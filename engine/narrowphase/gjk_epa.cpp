@@ -6,8 +6,9 @@
 // features that support the normal (feature_manifold.cpp). Half-spaces are the closed forms of "sat".
 //
 // Known limits: on the pairs of sat.cpp no wrong verdict beyond 1e-9 m of touching, and depths and what
-// normals lose within 2e-15 of size and place. Curved shapes with a ring of equally deep ways out (a cylinder
-// in a cone about one axis) run out of EPA's vertices; the descents of mpr.cpp bring them to the end.
+// normals lose within 2e-15 of size and place. Curved shapes with a ring of equally deep penetration vectors
+// (a cylinder in a cone about one axis) run out of EPA's vertices; the descents of mpr.cpp bring them to the
+// end.
 #include "engine/narrowphase/minkowski.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
 #include "engine/narrowphase/surface_contact.hpp"

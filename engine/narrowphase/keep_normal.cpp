@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Hysteresis of the ways out that EPA and MPR find. Overlapping cores can have several that are equally deep,
-// far apart from each other, and rounding would choose another one in every step. With h the support of the
-// Minkowski difference D, n the direction of least h and m that of the last step:
+// Hysteresis of the penetration vectors that EPA and MPR find. Overlapping cores can have several that are
+// equally deep, far apart from each other, and rounding would choose another one in every step. With h the
+// support of the Minkowski difference D, n the direction of least h and m that of the last step:
 //   where m and n are further apart than a face's own wobble (2.5 degrees), follow the descent n := normal of
 //   the facet through which the ray along n leaves D (mpr.cpp) from m to its local minimum m';
 //   m' stays where h(m') <= h(n) + kKeep size.
-// So the way out moves with the bodies, exactly, and changes only for one that is shorter by more than that.
-// Cores that are apart have one normal, which moves with them: nothing to keep. Cost: nothing while n stays;
-// about 3 rays (30 support points) in a step in which it would jump.
+// So the penetration vector moves with the bodies, exactly, and changes only for one that is shorter by more
+// than that. Cores that are apart have one normal, which moves with them: nothing to keep. Cost: nothing
+// while n stays; about 3 rays (30 support points) in a step in which it would jump.
 #include "engine/narrowphase/mpr.hpp"
 
 namespace rigor::engine {
@@ -17,7 +17,7 @@ namespace {
 
 /// A descent gains at least a facet per ray; more rays than this only trade rounding.
 constexpr int kMostRays = 24;
-/// A foot point this far from its facet, as a share of the place, was not on it.
+/// A foot point this far from its facet, as a fraction of the place, was not on it.
 template <class R>
 inline constexpr R kLostFoot = R(1e-3);
 
@@ -70,7 +70,7 @@ void placeFoot(PortalQuery<S>& query, const Minkowski<S>& D, const typename S::V
     V gap = contact.onB - contact.onA - contact.distance * contact.normal;
     if (gap.norm() > kLostFoot<typename S::Real> * std::max(contact.onA.norm(), contact.onB.norm()) &&
         std::abs(contact.distance) <= query.tolerance()) {
-        // Cores that cross without a volume in common (two segments): no facet holds the foot. They meet.
+        // Cores that cross without a volume in common (two segments): no facet holds the foot. They touch.
         const GjkResult<S> closest = gjk<S>(D, D.translation());
         contact.onA = closest.simplex.onA();
         contact.onB = closest.simplex.onB();

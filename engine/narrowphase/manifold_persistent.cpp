@@ -8,7 +8,7 @@
 //   drop      s > speculative distance, or |pB - pA - s n| > drift: the bodies have slid
 //   merge     a new point within `drift` of a cached one takes its place and its name
 //   reduce    of one too many the deepest stays, and those that span the largest area
-// The drift allowed is a share of the smaller shape's size; the source uses an absolute 2 cm.
+// The drift allowed is a fraction of the smaller shape's size; the source uses an absolute 2 cm.
 //
 // Deviation: any narrow phase may feed it; of more points found at once only the deepest is taken. Known
 // limits: a body needs several steps of rocking before a face is held; points out of date by up to the drift

@@ -112,8 +112,8 @@ struct CoreContact {
 template <class S>
 CoreContact<S> closestCores(const Minkowski<S>& D);
 
-/// Puts the way out that `last`, the normal of the last step (frame of A), leads to in the place of the
-/// contact's, where that one is no shorter than by kKeep of the smaller shape (keep_normal.cpp).
+/// Puts the penetration vector that `last`, the normal of the last step (frame of A), leads to in the place
+/// of the contact's, where that one is no shorter than by kKeep of the smaller shape (keep_normal.cpp).
 template <class S>
 void keepNormal(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, const typename S::Vec& last,
                 CoreContact<S>& contact);
@@ -135,7 +135,7 @@ void featureManifold(const Shape<Space<R, 3>>& a, const Shape<Space<R, 3>>& b,
 template <class R>
 inline constexpr R kFlatFeature = R(0.999);
 
-/// The deepest point of a contact where no other point is as deep: features that meet in a point have it
+/// The deepest point of a contact where no other point is as deep: features that touch in a point have it
 /// alone.
 template <class S>
 void addDeepest(const CoreContact<S>& contact, typename S::Real rA, typename S::Real rB,

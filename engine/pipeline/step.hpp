@@ -78,7 +78,7 @@ class Step {
     void solvePositions();
     void correct();
 
-    // --- what they share
+    // --- data shared by them
     ContactStep<S> contactStep() const;
     BiasRule<Real> biasRule() const;
     void solveVelocities(int iterations, bool warmStarted);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The constraints of a step as position correction sees them, after the bodies have moved.
+// The constraints of a step as input of position correction, after the bodies have moved.
 #pragma once
 
 #include <vector>

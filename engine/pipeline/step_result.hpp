@@ -48,7 +48,8 @@ struct StepResult {
     std::size_t pairs = 0, contacts = 0, rows = 0;
     std::size_t narrowPhaseCalls = 0;  ///< narrow-phase queries: pairs, or pieces of surfaces
     int iterations = 0;                ///< iterations of the solver in all sub-steps
-    /// Collisions that continuous_collision = conservative_advancement has put at their time, in its order.
+    /// Collisions that continuous_collision = conservative_advancement has found, in the order of their
+    /// times.
     std::span<const ImpactEvent<S>> impacts;
     std::size_t sleeping = 0;  ///< bodies asleep at the end of the step
     bool impactsCut = false;   ///< a body had too many of them and lost the rest of its time
@@ -58,7 +59,7 @@ struct StepResult {
     std::span<const Event<S>> events;  ///< contacts that began and ended, in the order of shapes
     bool solverGaveUp = false;         ///< a solver did not reach what it promises and left the best it had
     std::array<double, kPhases> seconds{};  ///< wall time per phase
-    std::span<const JointId> broken;        ///< joints that broke in this step; they are gone
+    std::span<const JointId> broken;        ///< joints that broke in this step; they no longer exist
 };
 
 /// A contact point as the last step solved it. A is the body of lower dense index.

@@ -4,8 +4,8 @@
 // Time of first touch of a translating convex shape by conservative advancement [Mirtich1996, ch. 2]: with
 // distance d and unit normal n of the closest points at fraction t and the translation T,
 //   t := t + d / (n . T).
-// The shapes' supporting planes across n cannot meet earlier, so that no step goes too far; n . T <= 0 means
-// that those planes never meet, and so neither do the shapes. Ends when d is below the rounding of the
+// The shapes' supporting planes across n cannot touch earlier, so that no step goes too far; n . T <= 0 means
+// that those planes never touch, and so neither do the shapes. Ends when d is below the rounding of the
 // coordinates. Cost: one closestPoints per step; polytopes take a few steps, curved sides gain several digits
 // a step unless they graze. Limit: kMostSteps; a hit then is flagged, its fraction too early.
 #include "engine/queries/shape_cast.hpp"
@@ -28,7 +28,7 @@ CastResult<S> castConvex(const Shape<S>& a, const Pose<S>& Xa, const typename S:
     const Aabb<S> box = boundingBox<S>(a, Xa);
     const R size = std::max({(box.max - box.min).maxCoeff(), translation.cwiseAbs().maxCoeff(),
                              (Xb.p - Xa.p).cwiseAbs().maxCoeff()});
-    // 64 roundings of the sizes met: the least distance that closestPoints distinguishes from zero.
+    // 64 roundings of the sizes that occur: the least distance that closestPoints distinguishes from zero.
     const R touching = R(64) * std::numeric_limits<R>::epsilon() * size;
     R t = 0;
     for (int step = 0; step < kMostSteps; ++step) {

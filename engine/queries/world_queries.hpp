@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Queries to a world that is not being stepped: what does a ray meet, where does a moved shape touch first,
-// what overlaps, what is nearest.
+// Queries to a world that is not being stepped: hits of a ray, first contact of a moved shape, overlaps,
+// nearest shape.
 //
 //   WorldQueries<Space3d> queries(world);
 //   if (const auto hit = queries.castRay({0, 5, 0}, {0, -10, 0})) use(hit->body, hit->point, hit->normal);
@@ -69,7 +69,7 @@ class WorldQueries {
     /// that are not finite and for a translation of zero.
     std::optional<WorldRayHit<S>> castRay(const Vec& origin, const Vec& translation,
                                           const Filter& filter = {}) const;
-    /// One hit for every shape that the ray meets, nearest first.
+    /// One hit for every shape that the ray hits, nearest first.
     std::vector<WorldRayHit<S>> castRayAll(const Vec& origin, const Vec& translation,
                                            const Filter& filter = {}) const;
     /// First contact of `shape` on its way from X along `translation`. Throws EngineError "query_shape" for
@@ -80,7 +80,7 @@ class WorldQueries {
     /// piece.
     std::vector<ShapeRef> overlapping(const Shape<S>& shape, const Pose<S>& X,
                                       const Filter& filter = {}) const;
-    /// Shapes whose bounding box meets the box.
+    /// Shapes whose bounding box overlaps the box.
     std::vector<ShapeRef> inBox(const Aabb<S>& box, const Filter& filter = {}) const;
     /// The nearest shape, if any within `most` [m] >= 0; overlapping ones count as the nearer the deeper.
     std::optional<NearestHit<S>> nearest(const Shape<S>& shape, const Pose<S>& X, Real most,

@@ -11,10 +11,10 @@
 //     sides where d . (a x b) has one sign for all of them, a -> b from o
 //   segment: the same with one edge
 //   composites: their pieces along the ray (surface.hpp), the nearest hit
-// A capsule is met where the first of its side and its two spheres is. Sides shared by two triangles belong
-// to both, widened by rounding; and d . (a x b) is exactly -d . (b x a), so that both of them agree on which
+// The hit of a capsule is the first of its side and its two spheres. Sides shared by two triangles belong to
+// both, widened by rounding; and d . (a x b) is exactly -d . (b x a), so that both of them agree on which
 // side of theirs a ray passes, as in [Woop2013]: nothing passes between them, slivers or not. Cost: O(1);
-// O(faces) of hulls; O(log n + pieces met) of composites.
+// O(faces) of hulls; O(log n + pieces hit) of composites.
 #include "engine/shapes/ray_cast.hpp"
 
 #include <cmath>

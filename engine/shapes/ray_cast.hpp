@@ -17,7 +17,7 @@ struct RayHit {
     bool startsInside = false;          ///< the origin is in the solid: fraction 0, normal against the ray
 };
 
-/// False where the ray misses. Surfaces (segments, triangles, chains, meshes, fields) are met from both sides
+/// False where the ray misses. Surfaces (segments, triangles, chains, meshes, fields) are hit from both sides
 /// and have no inside. `translation` finite, not zero.
 template <class S>
 bool castRay(const Shape<S>& shape, const Pose<S>& X, const typename S::Vec& origin,

@@ -48,7 +48,7 @@ typename S::Vec supportOf(const Hull<S>& s, const typename S::Vec& d) {
     return v[best];
 }
 
-/// The rim point of the cap that d looks at; straight along the axis any will do.
+/// The rim point of the cap on the side of d; straight along the axis any will do.
 template <class S>
 typename S::Vec rimPoint(typename S::Real radius, typename S::Real y, const typename S::Vec& d) {
     const typename S::Real across = std::hypot(d.x(), d.z());

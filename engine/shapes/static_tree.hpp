@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Bounding-volume hierarchy over boxes that do not move: the triangles of a mesh, the segments of a chain,
-// the shapes of a world during queries. Built top down by splitting at the median centre along
-// the widest axis [Ericson2005, ch. 6.2], so that its depth is log2 of the count; nodes lie depth first.
+// the shapes of a world during queries. Built top down by splitting at the median centre along the widest
+// axis [Ericson2005, ch. 6.2], so that its depth is log2 of the count; nodes are stored depth first.
 // Cost: building O(n log^2 n), a query O(log n + found) for compact boxes. Queries do not allocate.
 #pragma once
 
@@ -44,12 +44,12 @@ class StaticTree {
     bool empty() const { return nodes_.empty(); }
     const Aabb<S>& bounds() const { return nodes_[0].box; }
 
-    /// visit(index) for each box that meets `box`.
+    /// visit(index) for each box that overlaps `box`.
     template <class Visit>
     void query(const Aabb<S>& box, Visit visit) const {
         walk([&](const Aabb<S>& b) { return b.overlaps(box); }, visit);
     }
-    /// visit(index) for each box that the ray o + t d, 0 <= t <= limit, meets; `limit` may shrink meanwhile.
+    /// visit(index) for each box that the ray o + t d, 0 <= t <= limit, hits; `limit` may shrink meanwhile.
     template <class Visit>
     void ray(const typename S::Vec& o, const typename S::Vec& d, const typename S::Real& limit,
              Visit visit) const {

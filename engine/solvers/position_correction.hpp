@@ -28,7 +28,7 @@ struct JointPositions {
     BlockMatrix<S> inverseK;                                    ///< inverse K of the equality rows
 };
 
-/// The constraints as position correction sees them, after the bodies have moved.
+/// The constraints as input of position correction, after the bodies have moved.
 template <class S>
 class PositionProblem {
   public:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Parallel Gauss-Seidel sweeps with the bits of one thread. A sweep solves units (rows, blocks or
-// groups of them) one after the other, and each sees what its predecessors have done to its bodies. Units
-// that move no common body do not see each other, so that only the order between those that do matters:
+// Parallel Gauss-Seidel sweeps with the bits of one thread. A sweep solves units (rows, blocks or groups of
+// them) one after the other, and each uses the velocities that its predecessors have left. Units that move no
+// common body do not see each other, so that only the order between those that do matters:
 //     level(k) = 1 + max over the bodies i that unit k moves of (level of the last unit before k that moves i)
 // Units of one level have no body in common, and those that share a body keep their order. Level after level,
 // all units of a level at once, is the sweep itself; the levels backwards are the sweep backwards. Level

@@ -31,7 +31,7 @@ std::span<const TraitsEntry<FrictionTraits>> frictionTraitsTable();
 
 /// Treatment of position errors of contacts and joints.
 enum class ErrorHandling : std::uint8_t {
-    Correction,  ///< rows are rigid, the world's position correction sees to errors
+    Correction,  ///< rows are rigid, the world's position correction removes errors
     Springs,     ///< damped springs of WorldDef::contactFrequency and jointFrequency, at most a quarter of
                  ///< the sub-step rate
     Positions,   ///< bodies move first, and the solver puts their positions right

@@ -18,7 +18,7 @@ namespace rigor::engine {
 enum class BodyType : std::uint8_t { Static, Kinematic, Dynamic };
 
 /// Bodies for which a range of them is worth sharing among threads: some microseconds of work. The same
-/// wherever bodies are shared, so that a thread meets its own again.
+/// wherever bodies are shared, so that a thread gets the same ones again.
 inline constexpr std::size_t kBodyGrain = 64;
 
 /// Velocity of the centre of mass [m/s] and angular velocity [rad/s], world frame. The layout is groups of

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Velocities as one long row of numbers, for what is done to all of them alike.
+// Velocities as one long row of numbers, for operations that are the same for all of them.
 #pragma once
 
 #include <type_traits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The contact models by themselves, on a ball that touches the ground at one point.
+// The contact models by themselves, on a sphere that touches the ground at one point.
 #include <gtest/gtest.h>
 
 #include "engine/contacts/contact_model.hpp"
@@ -20,7 +20,7 @@ struct BallOnGround {
     ConstraintRows<S> rows;
     ContactStep<S> step{0.01, 1, 0, 10, {}, 0, 0, 1, true};
 
-    /// The ball has mass 2 and falls with 1 m/s.
+    /// The sphere has mass 2 and falls with 1 m/s.
     explicit BallOnGround(double friction) {
         for (const double invMass : {0.0, 0.5}) {
             bodies.pose.emplace_back();
@@ -77,7 +77,7 @@ TEST(RowContacts, FollowTheBodies) {
     EXPECT_DOUBLE_EQ(scene.contacts[0].points[0].separation, 0.2);
 }
 
-/// Both models stop the ball with the same impulse.
+/// Both models stop the sphere with the same impulse.
 TEST(ContactModels, AgreeOnOnePointWithoutFriction) {
     for (const char* name : {"pgs", "wide"}) {
         BallOnGround scene(0);

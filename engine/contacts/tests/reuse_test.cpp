@@ -153,7 +153,7 @@ void expectDepthWithinTheMotion(bool apart) {
         keeping.bodies.pose[1] = start;
         if (keeping.find().empty() != apart) continue;
         const double found = apart ? 0 : deepest<S>(keeping.find()[0]);
-        if (found < -0.02) continue;  // deep overlaps have more than one way out
+        if (found < -0.02) continue;  // deep overlaps have more than one penetration vector
         for (int motion = 0; motion < 10; ++motion) {
             const Pose<S> moved{start.p + random.vec(4e-4), rotatedBy(start.q, random.ang(5e-4))};
             keeping.bodies.pose[1] = querying.bodies.pose[1] = moved;
@@ -287,8 +287,8 @@ TYPED_TEST(Reuse, WhatComesBackIsFoundAgain) {
     }
 }
 
-/// Two boxes that overlap and turn together by a right angle: the way out that was chosen turns with them,
-/// and another one that has become as good as that is not taken.
+/// Two boxes that overlap and turn together by a right angle: the penetration vector that was chosen turns
+/// with them, and another one that has become as good as that is not taken.
 TYPED_TEST(Reuse, WhatTurnsTogetherKeepsItsWayOut) {
     using S = TypeParam;
     using R = typename S::Real;

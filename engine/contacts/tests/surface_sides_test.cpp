@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Bodies stay on their side of a sheet: dropped so fast that they pass it within one step, in all shapes, on
-// flat and rough meshes, height fields and chains; and a snapshot taken while they are through goes on alike.
+// flat and rough meshes, height fields and chains; and a snapshot taken while they are through has the same
+// future.
 #include <gtest/gtest.h>
 
 #include <random>

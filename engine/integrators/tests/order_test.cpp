@@ -184,7 +184,7 @@ void everyIntegratorHasItsOrder(Build<S> build, const Problem& problem) {
         const double expected = kOrder.at(entry.name);
         WorldDef<S> def = earth<S>();
         def.integrator = entry.name;
-        // First-order schemes need smaller steps to show their order; rk4 meets rounding there.
+        // First-order schemes need smaller steps to show their order; rk4 reaches rounding there.
         const int steps = expected == 1   ? 4 * problem.steps
                           : expected == 4 ? problem.steps / 2
                                           : problem.steps;

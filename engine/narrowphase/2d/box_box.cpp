@@ -32,7 +32,7 @@ Vec2<R> corner(const Vec2<R>& half, int i) {
     return {i == 1 || i == 2 ? half.x() : -half.x(), i >= 2 ? half.y() : -half.y()};
 }
 
-/// One box as the other one sees it.
+/// One box in the frame of the other.
 template <class R>
 struct SeenBox {
     Vec2<R> own;     ///< half extents of the box whose frame it is

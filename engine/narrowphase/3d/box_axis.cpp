@@ -112,7 +112,7 @@ void bestEdges(const Vec3<R>& a, const Vec3<R>& b, const Eigen::Matrix<R, 3, 3>&
     }
 }
 
-/// n along the sum of the outward normals of the two faces that meet in edge `edge` of a box.
+/// n along the sum of the outward normals of the two faces that share the edge `edge` of a box.
 template <class R>
 R towardsFaces(int edge, const Vec3<R>& n) {
     const int axis = edge / 4, low = axis == 0 ? 1 : 0, high = axis == 2 ? 1 : 2;

@@ -248,7 +248,7 @@ bool findFacePair(const BoxAxes<R>& boxes, const PolytopeAxis<R>& axis, Manifold
         memory.axis = kind;
         memory.featureA = static_cast<std::uint32_t>(axis.featureA);
         memory.featureB = static_cast<std::uint32_t>(axis.featureB);
-        // An edge that lies along a face meets it in a stretch, as two faces do in a polygon.
+        // An edge that lies along a face touches it in an interval, as two faces do in a polygon.
         if (std::max(facingA, facingB) < kFlat<R>) return false;
         m.refIsA = facingA >= facingB;
     } else {

@@ -50,8 +50,7 @@ Vec3<R> contactNormal(const Segments<R>& s, R y, R t, const Vec3<R>& across, R s
 }
 
 /// The two ends of the common stretch of nearly parallel segments, along the axis of A, with separations
-/// along n. False where there is no stretch worth two points, or the closest point is inside it (skew
-/// segments).
+/// along n. False if there is no interval for two points, or the closest point is inside it (skew segments).
 template <class R>
 bool sideBySide(const Segments<R>& s, R radiusA, R radiusB, const Vec3<R>& n, R closest, R speculative,
                 Manifold<Space<R, 3>>& out) {

@@ -4,8 +4,8 @@
 // Contact points along a normal n that GJK, EPA or MPR found. Of each shape the feature that supports n: a
 // face of a box or hull, the segment of a capsule, a point of a sphere, the result of feature.hpp for others.
 // The one most nearly perpendicular to n is the reference; the other is clipped to the prism that it sweeps
-// along n (Sutherland-Hodgman), with separations measured along n. Two segments side by side share a stretch
-// of both. If nothing is flat against n there is one point, the closest pair.
+// along n (Sutherland-Hodgman), with separations measured along n. Two segments side by side have an interval
+// in common. If nothing is flat against n there is one point, the closest pair.
 #include "engine/narrowphase/3d/clip.hpp"
 #include "engine/narrowphase/3d/feature.hpp"
 #include "engine/narrowphase/minkowski.hpp"
@@ -63,7 +63,7 @@ R flatness(const Feature<R>& f, const Vec3<R>& n) {
     return std::sqrt(std::max(R(0), R(1) - e.dot(n) * e.dot(n)));
 }
 
-/// The first side of the smaller of two faces or segments: what kKeep is a share of.
+/// The first side of the smaller of two faces or segments: the length that kKeep is a fraction of.
 template <class R>
 R smallerSide(const FaceLoop<R>& a, const FaceLoop<R>& b) {
     return std::min((a.at[1] - a.at[0]).norm(), (b.at[1] - b.at[0]).norm());
@@ -114,7 +114,7 @@ void faceAgainstFeature(const Clip<R>& c, Manifold<Space<R, 3>>& out) {
         [&](int k) { addClipped(c, at(k), height(at(k)), names[static_cast<std::size_t>(k)], out); });
 }
 
-/// The stretch that two nearly parallel segments share, measured along the first.
+/// The interval that two nearly parallel segments have in common, measured along the first.
 template <class R>
 void segmentAgainstSegment(const Clip<R>& c, Manifold<Space<R, 3>>& out) {
     const Vec3<R>&p = c.ref.loop.at[0], &q = c.inc.loop.at[0];

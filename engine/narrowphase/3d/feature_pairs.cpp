@@ -11,7 +11,7 @@
 //   3. the supporting features of A and B along n are clipped against each other: face and face or segment
 //      (Sutherland-Hodgman against the prism over the reference face), two nearly parallel segments (their
 //      common stretch), else the closest points alone. Separations are measured along n.
-//   4. the deepest point is kept: where clipping lost it the closest points are put in.
+//   4. the deepest point is kept: if clipping lost it the closest points are added.
 // Sources: [Bergen2003], [Ericson2005, ch. 5.3, 8.3].
 //
 // Limits: a disc is clipped as an inscribed polygon of 16 sides (in a sequence of steps its lowest
@@ -225,7 +225,7 @@ void alongSegments(const FeaturePair<R>& m, const SupportFeature<R>& fa, const S
     }
 }
 
-/// Step 1b: the way out of the last step, where it is as short. `last` in the frame of A.
+/// Step 1b: the penetration vector of the last step, if it is as short. `last` in the frame of A.
 template <class R>
 void keepWayOut(const Shape<S3<R>>& a, const Shape<S3<R>>& b, const Pose<S3<R>>& X, const Vec3<R>& last,
                 ClosestPoints<S3<R>>& closest) {

@@ -125,8 +125,8 @@ bool polytopeAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>&
                   PolytopeAxis<R>& best);
 
 /// Puts the axis that `memory` names in the place of `best` where that one is no better than by kKeep of the
-/// smaller polytope: two ways out that are equally deep do not take turns. A face does not give way to
-/// edges then, but edges to a face: it holds more points.
+/// smaller polytope: two penetration vectors that are equally deep do not alternate. A face does not give way
+/// to edges then, but edges to a face: it holds more points.
 template <class R>
 void keepAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X,
               const ManifoldMemory<Space<R, 3>>& memory, PolytopeAxis<R>& best);

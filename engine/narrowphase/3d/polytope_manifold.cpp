@@ -102,7 +102,7 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
     if (edges) {
         faceA = betterFace<R>(a, a.edges[axis.featureA], axis.normal);
         faceB = betterFace<R>(b, b.edges[axis.featureB], -towardsB);
-        // An edge that lies along a face meets it in a stretch, as two faces do in a polygon.
+        // An edge that lies along a face touches it in an interval, as two faces do in a polygon.
         const R facingA = a.faces[faceA].normal.dot(axis.normal),
                 facingB = -b.faces[faceB].normal.dot(towardsB);
         if (std::max(facingA, facingB) < kFlat<R>) {

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Pairs of posed shapes, for benchmarks of narrow phases; the same on every machine but for rounding.
-// Orientations are uniform; B stands off A in a random direction, is moved along it to the first touch, and
-// from there 0.05 m in (overlap) or 0.1 m out (apart). `face`: boxes 1 cm deep, face on face, turned at
-// random about the normal, so that whole faces touch.
+// Orientations are uniform; B is at a distance from A in a random direction, is moved along it to the first
+// touch, and from there 0.05 m in (overlap) or 0.1 m out (apart). `face`: boxes 1 cm deep, face on face,
+// turned at random about the normal, so that whole faces touch.
 #pragma once
 
 #include <cmath>

@@ -20,7 +20,7 @@ class Snapshot : public testing::Test {};
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(Snapshot, Spaces);
 
-/// Stack, ball, pendulum, rod, spring, drag: contacts that rest, hit and slide, joints and forces.
+/// Stack, sphere, pendulum, rod, spring, drag: contacts that rest, hit and slide, joints and forces.
 template <class S>
 World<S> scene(const WorldDef<S>& def) {
     using R = typename S::Real;

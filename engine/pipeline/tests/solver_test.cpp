@@ -39,7 +39,7 @@ Traits traitsOf(const std::string& name) {
         // Springs at a quarter of the step rate: load is carried by overlap.
         {.name = "pgs_soft", .sinks = 0.04, .slips = 1e-3, .swings = 1.0, .iterates = true},
         {.name = "single_pass", .solves = false, .swings = 5},
-        // One iteration per sub-step: the sliding box loses a share of a sub-step's friction where it starts.
+        // One iteration per sub-step: the sliding box loses a part of a sub-step's friction where it starts.
         {.name = "tgs_soft", .sinks = 0.01, .slips = 0.01, .turns = 1e-5},
         {.name = "wide", .sinks = 0.01, .slips = 0.01, .turns = 1e-4},
         // Positions linearised along the end of each sub-step, hence the damped swing; stacks rock on.
@@ -236,7 +236,7 @@ TYPED_TEST(Solvers, PendulumKeepsItsJointAndItsEnergy) {
     }
 }
 
-/// A tower with a swinging ball: contacts, a joint, impacts, friction.
+/// A tower with a swinging sphere: contacts, a joint, impacts, friction.
 template <class S>
 World<S> busyWorld(const WorldDef<S>& def) {
     World<S> world(def);
@@ -293,7 +293,7 @@ TYPED_TEST(Solvers, SteadyStepDoesNotAllocate) {
     }
 }
 
-/// A chain of balls that hangs from a joint and carries no redundant row, hit by one more: one solution.
+/// A chain of spheres that hangs from a joint and carries no redundant row, hit by one more: one solution.
 TYPED_TEST(Solvers, ConvergedSolversAgree) {
     using S = TypeParam;
     using R = typename S::Real;

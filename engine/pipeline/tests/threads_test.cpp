@@ -22,8 +22,8 @@ class Threads : public testing::Test {};
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(Threads, Spaces);
 
-/// A crowd that collapses: columns of boxes and balls that lean on each other, a chain of joints across them,
-/// and spheres thrown in; enough of everything for every loop of a step to be shared.
+/// A crowd that collapses: columns of boxes and spheres that rest on each other, a chain of joints across
+/// them, and spheres thrown in; enough of everything for every loop of a step to be shared.
 template <class S>
 World<S> crowd(const WorldDef<S>& def, int columns, int height) {
     using R = typename S::Real;
@@ -108,7 +108,7 @@ TYPED_TEST(Threads, DoNotChangeABitOfManyPairs) {
 TYPED_TEST(Threads, DoNotChangeABitOfAnySolverOrNarrowPhase) {
     using S = TypeParam;
     WorldDef<S> plain = earth<S>();
-    // Direct solvers look at all rows together, and iterate no better for being many.
+    // Direct solvers solve all rows together, and more iterations do not help them.
     plain.velocityIterations = plain.firstStepIterations = 5;
     for (const auto& solver : solverTable<S>()) {
         WorldDef<S> def = plain;

@@ -135,8 +135,8 @@ TYPED_TEST(WideLaws, BounceAboveTheThresholdAndNotBelow) {
     }
 }
 
-/// Wherever in its way the step ends, also within the distance at which contacts are found ahead, a sphere
-/// hits with all of its speed and comes back with its share.
+/// For every place at which a step ends, also within the speculative distance, a sphere hits with all of its
+/// speed and rebounds by the restitution.
 TYPED_TEST(WideLaws, ReboundDoesNotDependOnTheGapBeforeIt) {
     using S = TypeParam;
     using R = typename S::Real;

@@ -132,7 +132,7 @@ TYPED_TEST(WidePatches, OverlapIsPushedOutToTheSlopAndNotFast) {
 }
 
 /// The points of a patch act on each other: of a frictionless body that lands askew none goes on into the
-/// ground at the end of a step, which one visit of points that do not know of each other cannot do.
+/// ground at the end of a step, which one pass over uncoupled points cannot achieve.
 TYPED_TEST(WidePatches, PointsOfOnePatchKnowOfEachOther) {
     using S = TypeParam;
     using R = typename S::Real;

@@ -36,8 +36,8 @@ std::vector<V> chain(Iterator begin, Iterator end, double tolerance) {
     return hull;
 }
 
-/// Drops vertices that stand less than the tolerance out of the line between their neighbours (the two ends
-/// of the chains are not tested against each other while they are built).
+/// Drops vertices that are less than the tolerance off the line between their neighbours (the two ends of the
+/// chains are not tested against each other while they are built).
 void dropCollinear(std::vector<V>& hull, double tolerance) {
     for (std::size_t i = 0; i < hull.size() && hull.size() >= 3;) {
         const std::size_t n = hull.size();

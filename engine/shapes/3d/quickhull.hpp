@@ -19,7 +19,7 @@ struct HullTriangle {
     double area = 0.0;
 };
 
-/// No point stands further than `tolerance` [m] out of a triangle's plane (up to rounding). Throws
+/// No point is further than `tolerance` [m] out of a triangle's plane (up to rounding). Throws
 /// std::invalid_argument where the points have no volume.
 std::vector<HullTriangle> quickhull(const std::vector<Eigen::Vector3d>& points, double tolerance);
 

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Rays against every kind of shape. Oracle: walking along the ray by the distance to the shape (sphere
-// tracing with closestPoints), which shares nothing with the closed forms; for composites, the nearest of all
-// pieces.
+// tracing with closestPoints), which has nothing in common with the closed forms; for composites, the nearest
+// of all pieces.
 #include "engine/shapes/ray_cast.hpp"
 
 #include <gtest/gtest.h>

@@ -93,7 +93,7 @@ class Dissection {
         order_.insert(order_.end(), between.begin(), between.end());
     }
 
-    /// Distances along joints between bodies of side 0 from a body, and the last body met.
+    /// Distances along joints between bodies of side 0 from a body, and the last body reached.
     std::uint32_t measure(std::uint32_t from, std::vector<std::int32_t>& distance) {
         queue_.assign(1, from);
         distance[from] = 0;

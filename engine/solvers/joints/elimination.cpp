@@ -4,7 +4,7 @@
 // Minimum degree [GeorgeLiu1989]: eliminating a node joins its neighbours to each other, so the one with the
 // fewest goes next (of equals the first). Chains and trees are eliminated from their leaves without any fill.
 // The order is then rearranged without a change of L's entries: component by component, and within one by a
-// postorder of the elimination tree [Liu1990], so that what depends on each other stands together in memory.
+// postorder of the elimination tree [Liu1990], so that dependent columns are together in memory.
 // Cost: about the entries of L times their number per column, once per graph.
 #include "engine/solvers/joints/elimination.hpp"
 

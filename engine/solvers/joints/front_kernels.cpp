@@ -186,7 +186,7 @@ HWY_INLINE void forwardColumns(const Columns<R>& t, R* y) {
         y[c] *= t.at[c * t.stride + c];
     }
     const hn::ScalableTag<R> d;
-    // The last vector takes in what stands behind the rows, and leaves it behind those of y.
+    // The last vector also processes the elements behind the rows, and leaves them behind those of y.
     for (std::size_t i = n; i < t.rows; i += hn::Lanes(d)) {
         auto sum = hn::LoadU(d, y + i);
         for (std::size_t c = 0; c < n; ++c)

@@ -10,7 +10,7 @@
 
 namespace rigor::engine {
 
-/// `columns` columns of `rows` rows: a lower triangle on top, what stands below it under that.
+/// `columns` columns of `rows` rows: a lower triangle on top, the rows below it under that.
 template <class R>
 struct FrontPanel {
     R* at = nullptr;
@@ -22,14 +22,14 @@ struct FrontPanel {
 /// zeros in its column.
 template <class R>
 void factorPanel(const FrontPanel<R>& panel, const R* floor);
-/// C -= A A^T for what stands below the triangle, A, in the lower triangle of C.
+/// C -= A A^T for the rows A below the triangle, in the lower triangle of C.
 template <class R>
 void subtractSquare(const FrontPanel<R>& panel, R* C, std::size_t stride);
 /// Number of elements behind a panel's last one, and behind y, that the next two functions may read, or write
 /// in y.
 inline constexpr std::size_t kFrontSlack = 64;
-/// y, a number per row: its upper part becomes the solution for the triangle, whose share is taken from the
-/// rest.
+/// y, a number per row: its upper part becomes the solution for the triangle, whose products are subtracted
+/// from the rest.
 template <class R>
 void solveForward(const FrontPanel<R>& panel, R* y);
 /// The upper part of y becomes the solution for the transpose, with the rest given.

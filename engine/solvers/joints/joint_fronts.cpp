@@ -3,8 +3,8 @@
 //
 // The multifrontal method [DuffReid1983]: columns of L with the same rows below them form a front, a dense
 // panel. A front is K's columns plus what its children in the elimination tree leave for it; its columns are
-// eliminated, and what that takes from the rows below is left, dense, for its parent. Children stand right
-// before their parent (postorder), so what is left stands on a stack, whose places are known beforehand.
+// eliminated, and what that takes from the rows below is left, dense, for its parent. Children come right
+// before their parent (postorder), so the updates are on a stack, whose places are known beforehand.
 //
 // Columns whose rows differ little are put into one front too, with zeros: a few wide panels are faster than
 // many narrow ones. Numbers do not change by it: what is zero stays zero.

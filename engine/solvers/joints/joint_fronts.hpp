@@ -18,7 +18,7 @@ template <class R>
 class JointFronts {
   public:
     /// The pattern of L in blocks of `size` numbers: column k has the rows row[start[k]] .. row[start[k + 1]
-    /// - 1], growing, above k; k and the rows count from `first`, and columns stand in a postorder of the
+    /// - 1], growing, above k; k and the rows count from `first`, and columns are in a postorder of the
     /// elimination tree. Allocates.
     void analyse(std::span<const std::size_t> start, std::span<const std::uint32_t> row, std::uint32_t first,
                  int size);

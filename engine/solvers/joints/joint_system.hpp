@@ -50,7 +50,8 @@ class JointSystem {
     };
     /// An off-diagonal block of K, below the diagonal: two items that act on the same body.
     struct Coupling {
-        std::size_t at;                     ///< entry of row_; with fronts where the block stands in them
+        std::size_t at;                     ///< entry of row_; place of the block in the fronts, if there are
+                                            ///< any
         std::uint32_t rowItem, columnItem;  ///< the item of the block's rows, and that of its columns
         bool isRowB, isColumnB;             ///< true if the body is B of these items
     };
@@ -91,7 +92,7 @@ class JointSystem {
     std::vector<Coupling> couplings_;
     std::vector<std::uint32_t> item_;      ///< position -> item
     std::vector<std::uint32_t> position_;  ///< item -> position
-    std::vector<std::size_t> place_;       ///< item -> where its right side stands in x_
+    std::vector<std::size_t> place_;       ///< item -> place of its right side in x_
     /// Blocks below the diagonal, column by column; entries of a column by growing row (positions).
     std::vector<std::size_t> start_;
     std::vector<std::uint32_t> row_;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// All rows of a step as one problem, for solvers that look at them together:
+// All rows of a step as one problem, for solvers that treat them together:
 //     w = W lambda + q,   W = J M^-1 J^T + diag(softness),   q = J v_0 + bias
 // with v_0 the velocities without the rows' impulses. W is the Delassus operator: symmetric, positive
-// semi-definite; singular where rows are redundant (a box on four corners). Rows stand in the order of the
+// semi-definite; singular where rows are redundant (a box on four corners). Rows are in the order of the
 // world. It is in double precision for every space: pivoting in single loses its last digit after some
 // hundred rows.
 // Cost: memory n^2; time the sum over bodies of (rows of the body)^2.

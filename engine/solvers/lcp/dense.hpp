@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Dense linear systems in double precision, in storage that is kept: solvers that look at all rows at once
+// Dense linear systems in double precision, in storage that is kept: solvers that treat all rows at once
 // factor a matrix or more in every step and must not allocate. (Eigen's decompositions of dynamic size
 // allocate their permutations; sizes here are a few hundred at most.)
 #pragma once

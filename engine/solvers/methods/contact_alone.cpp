@@ -26,7 +26,7 @@ struct Slip {
     R s11, s12, s22;  ///< S
     Vec2<R> beta, c;  ///< c = W_tn
     R wn, bn, mu;
-    R applied;  ///< normal impulse that friction may lean on besides r_n
+    R applied;  ///< normal impulse in addition to r_n that bounds the friction
     Vec2<R> rt = Vec2<R>::Zero();
     R rn = 0, slope = 0;
 

@@ -105,7 +105,7 @@ void ContactInterior::begin(const AssembledProblem& p, double shift) {
     right_.resize(n);
     y_.resize(n);
     pinned_.assign(n, 0);
-    // Scaled, velocities and impulses of light and heavy bodies are alike: roots of energies.
+    // Scaled, velocities and impulses of light and heavy bodies have one scale: roots of energies.
     double size = std::numeric_limits<double>::min();
     for (std::size_t i = 0; i < n; ++i) size = std::max(size, std::abs(p.q[i]) / std::sqrt(p.at(i, i)));
     const bool cold = !(shift < 1);

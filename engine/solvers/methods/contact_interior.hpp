@@ -14,7 +14,7 @@
 // convex; one round of this costs as much as the whole method here. Normals without friction and rows
 // with bounds are half-lines, a z = nu; rows without bounds are equations.
 //
-// c = 1 / sqrt(W_tt) makes contacts of light and heavy bodies alike. W_ii counts (1 + sigma) fold, for
+// c = 1 / sqrt(W_tt) gives contacts of light and heavy bodies one scale. W_ii counts (1 + sigma) fold, for
 // redundant rows. Cost: 2/3 n^3 per step, some twenty steps whatever the number of contacts or the ratio of
 // masses. Known limits: no proof of convergence (a problem may have no solution); the last digits are left to
 // the Newton steps of contact_newton.hpp; static friction above that of sliding, and impulses from outside

@@ -3,7 +3,7 @@
 //
 // The end of an iteration that has sorted contacts into open, sticking and sliding: steps of the generalised
 // Newton method on all rows (contact_newton.hpp), damped where they do not come nearer. The residual may rise
-// on the way, while contacts change their case; the best impulses met are kept, so that an attempt never
+// on the way, while contacts change their case; the best impulses found are kept, so that an attempt never
 // leaves more than it found.
 // Cost: n^3 / 3 per step and n^2 numbers of memory, n the number of rows.
 #pragma once

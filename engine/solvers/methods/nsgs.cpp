@@ -24,12 +24,12 @@
 // attempts from nearer and nearer to the sweeps' own; Newton steps finish again. The best impulses are kept
 // throughout.
 //
-// The velocities come from incremental updates: rounding of a few thousand updates stays below 1e-13
-// m/s. Cost: iterations * (2 sweeps + 2 passes + kDepth^2 ... rows); hundreds of iterations for tall stacks.
-// A step of Newton's or the interior-point method costs 2/3 n^3. velocity_iterations, 0 for 1000, is
-// the most; below kFinishEvery there are sweeps alone. Known limits: no proof of convergence; where friction
-// has several solutions the one found depends on the order of the rows, and some problems have none. If the
-// iterations end first, gaveUp() says so and the best impulses stand. Measured on heaps of 30 boxes and
+// The velocities come from incremental updates: rounding of a few thousand updates stays below 1e-13 m/s.
+// Cost: iterations * (2 sweeps + 2 passes + kDepth^2 ... rows); hundreds of iterations for tall stacks. A
+// step of Newton's or the interior-point method costs 2/3 n^3. velocity_iterations, 0 for 1000, is the most;
+// below kFinishEvery there are sweeps alone. Known limits: no proof of convergence; where friction has
+// several solutions the one found depends on the order of the rows, and some problems have none. If the
+// iterations end first, gaveUp() says so and the best impulses are kept. Measured on heaps of 30 boxes and
 // spheres (pipeline/tests/reference_test.cpp).
 #include <algorithm>
 #include <array>

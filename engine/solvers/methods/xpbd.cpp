@@ -19,7 +19,7 @@
 // what positions have used, so that the world's friction law holds over both. Normals go before all friction:
 // visiting corner by corner, friction holds on to the rotation that the first corner's normal has made and
 // the next one's takes back, and stacks walk. The velocity pass is swept until nearly solved: once is not
-// enough to take the push out of a box that stands on two corners.
+// enough to take the push out of a box that rests on two corners.
 //
 // substeps 0 means 20, velocity_iterations (of positions) 0 means 1. Cost per step: substeps * (2..11) * rows
 // and a joint evaluation each. No warm starting: lambda starts at zero in every sub-step.

@@ -294,7 +294,7 @@ TEST(Colouring, ChunksOfAllColoursMoveTheSameBodies) {
             EXPECT_NEAR(double(work[chunk]), double(shared) / double(of), 0.1 * double(shared));
         }
         // A row of bodies at each border, and blocks that the border goes through. Splits of each colour by
-        // itself (one in the middle of the ground's, another of the pairs') would lie rows apart.
+        // itself (one in the middle of the ground's, another of the pairs') would be rows apart.
         EXPECT_LE(all, kFew * kFew + (of - 1) * 4 * kFew) << of << " threads";
     }
 }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Orders of elimination against eliminating by the definition: the pattern is complete, trees have no fill,
-// what is connected stands together.
+// connected nodes are together.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -41,7 +41,7 @@ TYPED_TEST(PoissonImpact, ABoundedRowHasItsBoundsOnce) {
     for (const double sign : {1.0, -1.0}) {
         this->problem = {};
         this->SetUp();
-        // A motor that wants 1 m/s and may give 0.3 Ns.
+        // A motor with the target 1 m/s and at most 0.3 Ns.
         this->problem.addBounded(0, 1, S::Vec::Unit(0), S::Vec::Zero(), S::Vec::Zero(), -0.3, 0.3, -sign, 0);
         this->impact();
         const Row<S>& motor = this->problem.rows.rows[1];

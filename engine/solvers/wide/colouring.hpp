@@ -81,9 +81,9 @@ class Colouring {
     std::span<const Range> ranges() const { return ranges_; }
     /// The other blocks. There is at least one partition; together they have all bodies.
     std::span<const Partition> partitions() const { return partitions_; }
-    /// Splits a range where the `fraction` (0 .. 1) of its work lies before. The work between two such
-    /// splits belongs, but for some at the ends, to the same bodies in all ranges, so that a thread finds
-    /// them in its own cache; it is moved as far as needed to keep the threads' work even.
+    /// Splits a range where the `fraction` (0 .. 1) of its work is before. The work between two such splits
+    /// belongs, but for some at the ends, to the same bodies in all ranges, so that a thread finds them in
+    /// its own cache; it is moved as far as needed to keep the threads' work even.
     Split split(const Range& range, double fraction) const;
 
   private:

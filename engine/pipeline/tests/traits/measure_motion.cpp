@@ -18,7 +18,7 @@ void run(World<S>& world, int steps, double h) {
 
 // --- integrators
 // ----------------------------------------------------------------------------------------------
-/// Displacement of one step of free fall, as a share of g h^2.
+/// Displacement of one step of free fall, as a fraction of g h^2.
 double fallOfOneStep(const std::string& integrator) {
     WorldDef<S> def = earth<S>();
     def.integrator = integrator;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Every algorithm does what it declares, and every lie is found out. Listing an algorithm is enough to be
-// measured. The tables of this program have false entries as well (tables.cpp).
+// Every algorithm does what it declares, and every false declaration is found. Listing an algorithm is enough
+// to be measured. The tables of this program have false entries as well (tables.cpp).
 #include <gtest/gtest.h>
 
 #include <string>
