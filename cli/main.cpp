@@ -76,7 +76,7 @@ int runCommand(int argc, char** argv) {
 int main(int argc, char** argv) {
     using namespace rigor::cli;
     try {
-        // The program runs itself again for every case; these are not for people.
+        // The program runs itself again for every case; these are for programs.
         if (argc > 1 && std::string_view(argv[1]).starts_with("__"))
             return rigor::validation::childMain({argv + 1, argv + argc},
                                                 {{"__bench", rigor::validation::benchChild},

@@ -39,7 +39,7 @@ bool isFolderOfRun(const std::string& what) {
     return std::none_of(all.begin(), all.end(), [&](const auto& entry) { return entry.name == what; });
 }
 
-/// The desktop's own browser; whether that worked is for the person to see.
+/// The desktop's own browser; the user sees whether that worked.
 void openInBrowser(const std::string& url) {
     const pid_t child = fork();
     if (child != 0) return;

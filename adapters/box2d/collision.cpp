@@ -137,8 +137,8 @@ std::vector<Side> sidesOf(const PosedShape& posed, const Frame& frame) {
     return sides;
 }
 
-/// The manifold of two shapes that both are Box2D's, in the order Box2D wants them; false when it wants the
-/// other order.
+/// The manifold of two shapes that both are Box2D's, in the order that Box2D requires; false if it requires
+/// the other order.
 bool collideOrdered(const Side& a, const Side& b, b2Manifold& manifold) {
     const auto typeA = a.shape->GetType(), typeB = b.shape->GetType();
     const auto circle = [](const Side& s) { return static_cast<const b2CircleShape*>(s.shape.get()); };

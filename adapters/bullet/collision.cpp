@@ -309,8 +309,8 @@ std::unique_ptr<adapter::CollisionBatch> BulletCollisionEngine::batch(
 
 CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) const {
     adapter::checkQueryInput(query);
-    // Deeper than any overlap in 2D, so that the least way out is never along z, and no longer than
-    // that: EPA loses digits on slender prisms.
+    // Deeper than any overlap in 2D, so that the least penetration is never along z, and no longer than that:
+    // EPA loses digits on slender prisms.
     const double halfDepth =
         query.dimension == 2 ? planarExtent(*query.a.geometry) + planarExtent(*query.b.geometry) : 0.0;
     const ShapeSettings settings = shapeSettings(query.settings);

@@ -377,7 +377,7 @@ void BulletWorld::step() {
 }
 
 /// Bullet derives a kinematic body's velocity from its last two poses before this callback; its own constant
-/// velocity is set here, so that friction sees it while the pose is still that of the start of the step.
+/// velocity is set here, so that friction uses it while the pose is still that of the start of the step.
 void BulletWorld::beforeStep(btDynamicsWorld* world, btScalar) {
     auto& self = *static_cast<BulletWorld*>(world->getWorldUserInfo());
     for (auto& record : self.records_) {

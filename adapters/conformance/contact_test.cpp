@@ -158,7 +158,7 @@ TEST_P(Contact, ShapesStandTheWayTheScenarioSays) {
         const char* name;
         Geometry geometry;
         Quat orientation;
-        double x, height;  ///< a ball of radius 0.1 put at x finds the surface at this height
+        double x, height;  ///< a sphere of radius 0.1 placed at x touches the surface at this height
     };
     const Quat lying = fromAxisAngle({0, 0, 1}, kPi / 2), upsideDown = fromAxisAngle({0, 0, 1}, kPi);
     std::vector<SurfaceSample> samples{{"capsule", Capsule{0.2, 0.6}, {}, 0.0, 0.8},

@@ -56,8 +56,8 @@ std::string arenaName(const testing::TestParamInfo<Arena>& info);
 std::string dimensionName(const testing::TestParamInfo<int>& info);
 
 // ------------------------------------------------------------------------------------ known deviations
-/// Something a library is known not to do. A check that meets its ordinary tolerance all the same fails at
-/// the end of the run: the line has to go.
+// Something a library is known not to do. A check that is within its ordinary tolerance all the same fails at
+// the end of the run: the line has to go.
 struct Deviation {
     const char* engine;
     const char* precision;  ///< "" for any
@@ -69,7 +69,7 @@ struct Deviation {
 };
 /// Fails unless error <= tolerance, or <= that of the known deviation of this name.
 void expectWithin(const std::string& check, double error, double tolerance, const Arena& arena);
-/// Failures for deviations that were met but never needed.
+/// Failures for deviations that were checked but never needed.
 std::vector<std::string> staleDeviations();
 
 // ------------------------------------------------------------------------------------------ scenarios

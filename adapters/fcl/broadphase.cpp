@@ -31,8 +31,8 @@ using Manager = fcl::BroadPhaseCollisionManagerd;
 /// only the growth adds are removed again.
 constexpr double kGrowth = 1e-12;
 
-/// Cells of twice the mean extent over twice the region of the boxes: those that leave it meet all others
-/// that did. The hash has as many buckets as boxes, at least the default.
+/// Cells of twice the mean extent over twice the region of the boxes: those that leave it are paired with all
+/// others that did. The hash has as many buckets as boxes, at least the default.
 std::unique_ptr<Manager> spatialHash(std::span<const Aabb> boxes) {
     fcl::Vector3d low(0, 0, 0), high(1, 1, 1);
     double extent = 0.0;

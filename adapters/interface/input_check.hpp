@@ -17,8 +17,8 @@ void checkScenarioInput(const Scenario& scenario, double dt);
 /// The same for one query.
 void checkQueryInput(const CollisionQuery& query);
 
-/// Throws Unsupported naming the first thing in the scenario that `capabilities` lacks: as the library's lack
-/// where Capabilities::libraryLacks has a document for it, else as the adapter's.
+/// Throws Unsupported naming the first feature of the scenario that `capabilities` lacks: as the library's
+/// lack where Capabilities::libraryLacks has a document for it, else as the adapter's.
 void checkSupported(const Scenario& scenario, const Capabilities& capabilities, const std::string& engine);
 
 }  // namespace rigor::adapter

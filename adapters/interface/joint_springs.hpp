@@ -3,8 +3,8 @@
 //
 // Springs of joints that the scenario gives by frequency and damping ratio, as stiffness and damping. The
 // format means the effective mass of the coordinate at the initial poses; what engines themselves make of a
-// frequency differs (the mass of each step, of one body, of no arm), so every adapter hands over numbers in
-// N/m and N s/m from here.
+// frequency differs (the mass of each step, of one body, of no arm), so every adapter passes numbers in N/m
+// and N s/m from here.
 #pragma once
 
 #include "adapters/interface/types.hpp"

@@ -34,7 +34,7 @@ class PairTable {
         int materialA = 0, materialB = 0;  ///< materialA <= materialB
         ShapeRef a, b;                     ///< shapes of materialA and of materialB
     };
-    /// One example for every unordered pair of materials that can meet, sorted by materials.
+    /// One example for every unordered pair of materials that can touch, sorted by materials.
     std::vector<Example> examples() const;
 
     /// True where some shape that may touch `body` has a restitution > 0 with it.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Pairs are tested against the exact boxes before they are handed out, whatever an engine adds to them.
+// Pairs are tested against the exact boxes before they are returned, for all additions of an engine.
 #include "adapters/interface/timed.hpp"
 
 #include <algorithm>

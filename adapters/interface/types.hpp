@@ -72,7 +72,7 @@ struct PairReadBack {
 };
 struct ReadBack {
     std::vector<BodyReadBack> bodies;  ///< bodies by scenario index
-    std::vector<PairReadBack> pairs;   ///< every pair of materials that can meet
+    std::vector<PairReadBack> pairs;   ///< every pair of materials that can touch
 };
 
 /// Work counters of the last step; -1 if the engine does not report them.

@@ -34,8 +34,8 @@ void bringIntoPlane(std::vector<FoundPoint>& points) {
     points.swap(flat);
 }
 
-/// A hull meets both sides of a mesh, and from the side that it is not on ODE gives it normals through the
-/// surface: what pushes the hull's middle towards the surface is dropped.
+/// A hull collides with both sides of a mesh, and from the side that it is not on ODE gives it normals
+/// through the surface: what pushes the hull's middle towards the surface is dropped.
 void keepHullsOwnSide(dGeomID a, dGeomID b, std::vector<FoundPoint>& points) {
     const int kindA = dGeomGetClass(a), kindB = dGeomGetClass(b);
     const bool hullIsA = kindA == dConvexClass && kindB == dTriMeshClass;

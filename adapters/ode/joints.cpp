@@ -161,10 +161,10 @@ void OdeJoint::buildDistance() {
     if (axis.hasSpring()) softenSpring(axis, id, dJointSetDBallParam, dParamERP, dParamCFM);
 }
 
-/// Hinge2 with its steering locked. Its suspension pulls to where the anchors met when they were set, so they
-/// are set with B moved by the spring's target. It needs two bodies: the world is a kinematic one at the
-/// anchor. Its locked steering holds turns about the strut: of a pin that leans it would hold a part (0.09 m off
-/// after 1 s, at every step), so such a wheel is made of rows.
+/// Hinge2 with its steering locked. Its suspension pulls to the place of the anchors when they were set, so
+/// they are set with B moved by the spring's target. It needs two bodies: the world is a kinematic one at the
+/// anchor. Its locked steering holds turns about the strut: of a pin that leans it would hold a part (0.09 m
+/// off after 1 s, at every step), so such a wheel is made of rows.
 void OdeJoint::buildWheel() {
     const JointAxis &travel = joint_.axes[0], &angle = joint_.axes[1];
     const Vec3 along = motion_.axis(0), pin = motion_.turningAxis();

@@ -56,7 +56,7 @@ class Monitor final : public engine::IterationMonitor<S> {
     double tolerance_;
 };
 
-/// Rows, velocities and a solver that has met them.
+/// Rows, velocities and a solver that has been given them.
 template <class S>
 class EngineSolve : public ContactSolve {
   public:

@@ -3,8 +3,8 @@
 //
 // The other engine is queried for overlaps only: none of them reports contacts of shapes that are apart, so
 // resting bodies sink in by the slop before they are held. Its contacts become one manifold: the normal of
-// the deepest, the contacts that share it, reduced to four. Engines name no features; points get names of
-// their own, and impulses are taken over from the nearest point of the last step.
+// the deepest, the contacts with the same normal, reduced to four. Engines name no features; points get names
+// of their own, and impulses are taken over from the nearest point of the last step.
 #include "adapters/rigor/foreign_narrow_phase.hpp"
 
 #include <algorithm>

@@ -18,7 +18,7 @@ std::vector<std::string> foreignNarrowPhases();
 bool isForeignNarrowPhase(const std::string& name);
 
 /// Loads the adapter of that name and wraps its collision queries; 3D only. Throws BadInput when its module
-/// is not installed. Shapes that the engine does not have throw Unsupported when they meet.
+/// is not installed. Shapes that the engine does not have throw Unsupported when they come near each other.
 template <class S>
 std::shared_ptr<const engine::NarrowPhase<S>> makeForeignNarrowPhase(const std::string& name);
 

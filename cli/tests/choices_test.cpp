@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The menu of the in-house engine as a user meets it: everything of it is listed, and every listed choice
+// The menu of the in-house engine as the user sees it: everything of it is listed, and every listed choice
 // runs by its spec, from a study file and from a scenario file.
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// `rigor collide` as a user meets it: verdicts, exit codes, files, messages.
+// `rigor collide` from the user's side: verdicts, exit codes, files, messages.
 #include <gtest/gtest.h>
 
 #include <cmath>

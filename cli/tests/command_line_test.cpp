@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The program as a user meets it: exit codes, messages, JSON, CSV.
+// The program from the user's side: exit codes, messages, JSON, CSV.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -306,7 +306,7 @@ TEST(CommandLine, ShortPiecesAreMeasuredAndStored) {
     EXPECT_EQ(rigor("pieces " + file + " --engines bulet").code, 2);
 }
 
-/// The first of three balls that do not meet is followed.
+/// The first of three balls that do not collide is followed.
 std::filesystem::path writeThreeBalls() {
     const auto file = std::filesystem::path(testing::TempDir()) / "three_balls.json";
     std::ofstream out(file);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// `rigor freeze` and `rigor solve` as a user meets them.
+// `rigor freeze` and `rigor solve` from the user's side.
 #include <gmock/gmock.h>
 
 #include <filesystem>

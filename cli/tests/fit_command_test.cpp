@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// `rigor import` and `rigor fit` as a user meets them: a folder of recordings, the scenarios made of it, a
+// `rigor import` and `rigor fit` from the user's side: a folder of recordings, the scenarios made of it, a
 // suite of one's own for `validate`, the folder of a fit, resuming, exit codes, messages.
 #include <gmock/gmock.h>
 

@@ -30,7 +30,7 @@ using validation::AuditQuery;
 
 constexpr double kAgree = 1e-6;  // [rad]
 
-/// A plank turned by hand by 0.05 rad a step of 1/60 s, a box and a ball on it.
+/// A plank turned by the test by 0.05 rad a step of 1/60 s, a box and a ball on it.
 constexpr const char* kTurningPlank = R"({
   "rigor": 1, "name": "turning_plank", "title": "A plank that turns", "source": "none",
   "description": "A plank is turned at 3 rad/s under a box and a ball.",

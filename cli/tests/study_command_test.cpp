@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// `rigor study` as a user meets it: a file of one's own, the run folder, resuming, exit codes, messages.
+// `rigor study` from the user's side: a file of one's own, the run folder, resuming, exit codes, messages.
 #include <gtest/gtest.h>
 
 #include <filesystem>

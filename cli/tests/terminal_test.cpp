@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Output of `rigor validate` while it works and at its end: at a terminal, at one that wants no colours, at
-// one that can not take a line back, and through a pipe.
+// Output of `rigor validate` while it works and at its end: at a terminal, at one without colours, at one
+// that can not take a line back, and through a pipe.
 #include <gtest/gtest.h>
 #include <pty.h>
 #include <sys/wait.h>

@@ -10,7 +10,7 @@
 
 namespace rigor::scenario {
 
-/// One thing wrong with a file.
+/// One error in a file.
 struct Problem {
     std::string id;  ///< stable: "schema.type", "reference.unknown_body", ...
     std::string file;

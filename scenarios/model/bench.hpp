@@ -17,8 +17,8 @@ enum class Quality {
     MaxPenetration,   ///< largest depth of the contacts [m]
     MeanPenetration,  ///< mean depth of the contacts that overlap [m]
     KineticEnergy,    ///< kinetic energy of all dynamic bodies [J]
-    EnergyGain,    ///< most that kinetic and potential energy rose above the start, in any step looked at [J]
-    JointGap,      ///< largest distance between the two anchors of a joint, in any step looked at [m]
+    EnergyGain,    ///< most that kinetic and potential energy rose above the start, in any step examined [J]
+    JointGap,      ///< largest distance between the two anchors of a joint, in any step examined [m]
     TopHeight,     ///< height of the highest dynamic body's centre of mass, against gravity [m]
     LowestHeight,  ///< height of the lowest one: bodies that fell through the floor show here [m]
     ContactPairs,  ///< pairs of bodies in touch

@@ -10,8 +10,8 @@
 namespace rigor::scenario {
 namespace {
 
-// Points nearer than this share of the extent to a plane lie on it: far above rounding (1e-16), far below any
-// shape's detail.
+// Points nearer than this fraction of the extent to a plane lie on it: far above rounding (1e-16), far below
+// any shape's detail.
 constexpr double kCoplanar = 1e-10;
 
 double extent(const std::vector<Vec3>& points) {

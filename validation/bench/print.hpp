@@ -12,7 +12,7 @@
 
 namespace rigor::validation {
 
-/// One table for each thing that was timed. An invalid timing is struck out and says why.
+/// One table for each kind of timed work. An invalid timing is struck out and says why.
 std::string benchText(const results::Run& run, bool colour);
 
 /// Everything that was measured, whole.

@@ -23,7 +23,7 @@ namespace {
 
 using results::BenchRepetition;
 
-/// Steps between two readings in a timed round. Reading touches what the next step wants in its caches: the
+/// Steps between two readings in a timed round. Reading changes the caches that the next step uses: the
 /// median step is none of those. The look reads after every step.
 constexpr std::size_t kReadEvery = 10;
 

@@ -21,7 +21,7 @@ namespace rigor::validation {
 void summarise(results::Bench& bench, const BenchTarget& target, const std::string& base);
 
 struct BaselineOptions {
-    double threshold = 0.05;  ///< slower by a smaller share is not held against an engine
+    double threshold = 0.05;  ///< a smaller slow-down does not count against an engine
     double level = 0.05;      ///< significance level of the tests, all cases together
 };
 

@@ -88,9 +88,9 @@ struct CollideCase {
 struct CollideSummary {
     std::string spec;
     int queried = 0, answered = 0, unsupported = 0, undecided = 0,
-        failed = 0;                       ///< failed: error, crash, timeout
-    int missed = 0, spurious = 0;         ///< wrong overlap verdicts, by kind
-    int wrongDepth = 0, wrongNormal = 0;  ///< cases; a case counts at the first thing that is wrong
+        failed = 0;                                         ///< failed: error, crash, timeout
+    int missed = 0, spurious = 0;                           ///< wrong overlap verdicts, by kind
+    int wrongDepth = 0, wrongNormal = 0;                    ///< cases; a case counts at its first error
     std::optional<double> depthErrorMax, depthErrorMedian;  ///< errors over the overlapping pairs [m]
     std::optional<double> depthRelativeMax;                 ///< error / max(depth, touch)
     std::optional<double> distanceErrorMax;                 ///< error over the separated pairs [m]

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Contact problems put to the solvers of every engine that has some: residual against iterations and
-// time. Each solver meets each problem in a child process of its own.
+// Contact problems put to the solvers of every engine that has some: residual against iterations and time.
+// Each solver solves each problem in a child process of its own.
 #pragma once
 
 #include <atomic>

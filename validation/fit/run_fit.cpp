@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Engine by engine: search on the training part, score on the other, then an ordinary run of the scored
-// scenarios with the fitted values, so that every toss can be looked at.
+// scenarios with the fitted values, so that every toss can be viewed.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

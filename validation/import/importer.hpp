@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Measured data sets become scenarios: one file per data set and one line in importers.def. An importer reads
-// a folder of the user's and hands back scenario texts whose reference is `measured_motion`; writing them,
-// with suites for the part to fit on and the part to score on and a fit file ready to use, is the same for
-// all.
+// a folder of the user's and returns scenario texts whose reference is `measured_motion`; writing them, with
+// suites for the part to fit on and the part to score on and a fit file ready to use, is the same for all.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +24,7 @@ struct ImportChoice {
 struct ImportRequest {
     std::filesystem::path from;  ///< folder of the data set
     std::string select = "all";  ///< "all", or a CSV file with a column `id`
-    std::string train;           ///< a CSV file with a column `id`, or a share in (0, 1); "": half
+    std::string train;           ///< a CSV file with a column `id`, or a fraction in (0, 1); "": half
     std::map<std::string, std::string> choices;  ///< complete: every key of the table's choices
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The table of importers, and what all of them share: choices, selections, the files that are written.
+// The table of importers, and their common functions: choices, selections, the files that are written.
 #include <algorithm>
 #include <charconv>
 #include <cmath>

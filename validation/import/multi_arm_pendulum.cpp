@@ -12,9 +12,9 @@
 // of which only the combinations that enter the equations mean something. Angular velocities are filtered
 // and serve as start values alone.
 //
-// A scenario is a whole recording or any span of one (a list with columns file, start, end, in seconds of
-// the file's column t). Its start, unless the caller wants the first row as it stands, is fitted: the angles
-// and rates from which the source's model is nearest to the first 0.1 s (arm_model.hpp).
+// A scenario is a whole recording or any span of one (a list with columns file, start, end, in seconds of the
+// file's column t). Its start, unless the caller selects the first row as it is, is fitted: the angles and
+// rates from which the source's model is nearest to the first 0.1 s (arm_model.hpp).
 // Source: Kaheman, Fasel, Bramburger, Strom, Kutz, Brunton, arXiv 2205.06231 (2022).
 #include <algorithm>
 #include <array>

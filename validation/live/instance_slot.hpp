@@ -24,7 +24,7 @@ struct SessionClock {
     std::mutex mutex;
     std::condition_variable changed;
     double target = 0.0;         ///< target of the instances in steps from the start of the session
-    std::uint64_t sequence = 0;  ///< counts every change that a client may want to see
+    std::uint64_t sequence = 0;  ///< counts every change that a client may show
     bool stages = false;         ///< frames carry what stages have made
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// One point of contact as mechanics sees it: where the impulse acts, how the two surfaces move against each
-// other there, and how an impulse changes that. One implementation for the residuals of the contact law and
-// for contact problems.
+// One point of contact in mechanics: where the impulse acts, how the two surfaces move against each other
+// there, and how an impulse changes that. One implementation for the residuals of the contact law and for
+// contact problems.
 //     u = vB + wB x rB - vA - wA x rA,    du = K dp,    K = sum over the moving bodies of 1/m - [r] I^-1 [r]
 // with the impulse p on B, the arms r from the centres of mass to the middle between the two surface points
 // (one point for both, or equal and opposite impulses would make a couple), or to the moving body's own

@@ -151,7 +151,7 @@ CoreContact coreContact(const Core& a, const Core& b, int dimension, Real tie) {
         addNormal(n, contact.normals);
     }
     if (best < 0) {
-        // The best candidate first, and a point that both surfaces share once B is moved out along it.
+        // The best candidate first, and a common point of both surfaces once B is moved out along it.
         for (const Vec& n : candidates)
             if (separation(a, b, n) > separation(a, b, contact.normal)) contact.normal = n;
         const Vec out = -best * contact.normal;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Shapes as the oracle sees them: a core (point, segment, polygon or polyhedron, by its vertices) grown by a
-// rounding radius, in long double and in the world frame. Private to this folder.
+// Shapes of the oracle: a core (point, segment, polygon or polyhedron, by its vertices) grown by a rounding
+// radius, in long double and in the world frame. Private to this folder.
 #pragma once
 
 #include <array>

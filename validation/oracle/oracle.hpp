@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The exact contact oracle: signed distance, all minimising normals and witness points of two convex shapes,
-// by brute force over features in extended precision. Slow on purpose; shares nothing with any engine.
+// by brute force over features in extended precision. Slow on purpose; has no code in common with any engine.
 #pragma once
 
 #include <optional>

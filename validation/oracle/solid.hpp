@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Bounded 3D shapes with round sides as the oracle sees them. Every one is the convex hull of points and
-// discs, grown by a rounding radius, so that its support function is
+// Bounded 3D shapes with round sides, as the oracle represents them. Every one is the convex hull of points
+// and discs, grown by a rounding radius, so that its support function is
 //   h(n) = max over points p . n,  max over discs c . n + r |n x u|;  plus the radius
 // and the sphere of directions falls into regions of one point or one disc, bounded by arcs of circles
 // n . axis = height: an edge of a polyhedron (its vector, 0), the side of a cylinder (axis, 0) and of a cone

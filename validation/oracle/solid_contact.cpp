@@ -230,7 +230,7 @@ Vec nearestOnDisc(const Disc& d, Vec y) {
     return d.center + (length > d.radius ? d.radius / length : 1) * out;
 }
 
-/// Points of the two cores that meet once B is moved by `shift`.
+/// Points of the two cores that coincide once B is moved by `shift`.
 Pair meetingPoints(const Patch& a, const Core* coreA, const Patch& b, const Core* coreB, Vec shift) {
     Pair pair;
     if (a.disc && b.disc) {

@@ -70,7 +70,7 @@ enum class OrderDependence { Unknown, None, Value, Grade, Verdict };
 const char* orderDependenceName(OrderDependence d);  ///< "", "no", "value", "grade", "verdict"
 OrderDependence parseOrderDependence(const std::string& name);
 
-/// A case run once more for other orders in which bodies, shapes, joints and forces are handed to the engine.
+/// A case run once more for other orders in which bodies, shapes, joints and forces are passed to the engine.
 /// An order whose reference broke down counts in `run` alone.
 struct InsertionOrders {
     std::optional<std::int64_t> run;        ///< orders, the one as written included; none: that one alone

@@ -84,7 +84,7 @@ results::AuditRow oracleRow(const AuditCase& audited);
 /// True if any two bodies may ever touch.
 bool hasAuditablePairs(const scenario::Scenario& scenario);
 
-/// The parent's side: queues the children of the audits in a pool and hands back the rows of each case.
+/// The parent's side: queues the children of the audits in a pool and returns the rows of each case.
 class AuditQueue {
   public:
     using Deliver = std::function<void(const std::string& caseId, std::vector<results::AuditRow>)>;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // A case run once more for each of some other orders in which its bodies, shapes, joints and forces are
-// handed to the engine (validation/symmetry/listing.hpp): what of its result is the order's. The value of the
+// passed to the engine (validation/symmetry/listing.hpp): what of its result is the order's. The value of the
 // order as written stays the value of the case; least and greatest stand beside it, for every engine alike.
 #pragma once
 

@@ -83,7 +83,8 @@ void ProcessPool::waitForEvents() {
     const auto now = Clock::now();
     for (const Running& child : running_) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(child.deadline - now).count();
-        // A child beyond its time is looked at every other millisecond: it may have had its share by then.
+        // A child beyond its time is checked every other millisecond: it may have had its processor time by
+        // then.
         milliseconds = static_cast<int>(std::clamp<std::int64_t>(left, 2, milliseconds));
         if (child.output >= 0)
             files.push_back({child.output, POLLIN, 0});

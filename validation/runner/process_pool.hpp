@@ -69,7 +69,7 @@ class ProcessPool {
         pid_t pid = -1;
         int output = -1;
         Clock::time_point started, deadline;
-        double cpuSeen = 0.0;        ///< processor time when it was last looked at after the deadline [s]
+        double cpuSeen = 0.0;        ///< processor time when it was last checked after the deadline [s]
         Clock::time_point workedAt;  ///< time at which that had grown
         ProcessResult result;
     };

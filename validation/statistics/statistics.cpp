@@ -13,7 +13,7 @@ std::optional<Interval> medianInterval(std::vector<double> values) {
     const auto n = values.size();
     if (n < 6) return std::nullopt;
     const boost::math::binomial distribution(static_cast<double>(n), 0.5);
-    // P(Bin < k + 1) = cdf(k). Below n/2 - 2 sqrt(n) it is at most e^-8 (Hoeffding): nothing to look at
+    // P(Bin < k + 1) = cdf(k). Below n/2 - 2 sqrt(n) it is at most e^-8 (Hoeffding): nothing to compare
     // there.
     const double size = n;
     auto k = static_cast<std::size_t>(std::max(0.0, size / 2 - 2 * std::sqrt(size)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The entries of symmetries.def, and what their files share.
+// The entries of symmetries.def, and functions common to their files.
 #pragma once
 
 #include "validation/symmetry/symmetry.hpp"

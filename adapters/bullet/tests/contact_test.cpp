@@ -178,7 +178,7 @@ TEST(BulletReadBack, PairsAreWhatBulletWillUse) {
     }
     Simulation second(other, 1.0 / 240);
     const auto pairs = run.world->readBack().pairs;
-    ASSERT_EQ(pairs.size(), 2u);  // the feet never meet each other
+    ASSERT_EQ(pairs.size(), 2u);  // the feet never collide with each other
     EXPECT_EQ(pairs[0].materialB, 1);
     EXPECT_NEAR(pairs[0].friction, 0.0, 1e-7);
     EXPECT_NEAR(pairs[0].restitution, 0.25, 1e-7);

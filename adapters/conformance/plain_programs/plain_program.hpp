@@ -3,7 +3,8 @@
 //
 // Plain programs: scenes written against an engine's library alone, the way its manual does it, whose
 // trajectories the adapter has to reproduce for the scenario file of the same scene. A program and the
-// adapter share only the library and the numbers in the two files; nothing here converts or builds anything.
+// adapter have only the library in common, and the numbers in the two files; nothing here converts or builds
+// anything.
 #pragma once
 
 #include <gtest/gtest.h>

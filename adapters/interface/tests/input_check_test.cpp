@@ -255,7 +255,7 @@ TEST(Planar, ShapesBecomeSolidsAroundThePlane) {
     EXPECT_EQ(box.halfExtents, (Vec3{0.3, 0.2, kPlanarHalfDepth}));
     EXPECT_EQ(std::get<ConvexHull>(lifted.bodies[0].shapes[1].geometry).vertices.size(), 6u);
     EXPECT_EQ(std::get<Sphere>(lifted.bodies[0].shapes[2].geometry).radius, 0.5);
-    // A disc keeps the inertia of a disc, though it is a ball now.
+    // A disc keeps the inertia of a disc, although it is a sphere now.
     EXPECT_EQ(lifted.bodies[0].massProperties.mass, body.massProperties.mass);
     EXPECT_EQ(lifted.bodies[0].massProperties.inertia(2, 2), body.massProperties.inertia(2, 2));
     EXPECT_NO_THROW(checkScenarioInput(lifted, 0.01));

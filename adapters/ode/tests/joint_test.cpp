@@ -320,7 +320,7 @@ TEST(OdeJoints, ASuspensionIsDrivenToItsStop) {
     }
 }
 
-/// Trap: Hinge2's suspension pulls to where the anchors met; its target is set by moving B for a moment. A
+/// Trap: Hinge2's suspension pulls to the place of the anchors; its target is set by moving B for a moment. A
 /// car of one wheel: the spring's force must not turn the wheel, however far it is from the chassis.
 TEST(OdeJoints, AWheelOfAMovingChassisIsNotTurnedByItsSpring) {
     Scenario s = scene();

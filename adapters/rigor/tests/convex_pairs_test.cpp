@@ -49,7 +49,8 @@ void checkPair(const Posed& a, const Posed& b, double d, double size, double tol
     const auto curved = [](const scenario::Geometry& g) {
         return std::holds_alternative<scenario::Cylinder>(g) || std::holds_alternative<scenario::Cone>(g);
     };
-    // A ring of ways out leaves EPA unfinished, and its flag says so; the result is tested all the same.
+    // A ring of penetration vectors leaves EPA unfinished, and its flag says so; the result is tested all the
+    // same.
     EXPECT_TRUE(closest.converged || curved(a.geometry) || curved(b.geometry));
     EXPECT_NEAR(static_cast<double>(closest.distance), d, tolerance);
     EXPECT_GE(along(closest.normal), d - tolerance);
@@ -73,12 +74,12 @@ void checkPair(const Posed& a, const Posed& b, double d, double size, double tol
 
 struct Kind {
     const char* name;
-    double size = 1, thickness = 1;  ///< [m], share of the size
+    double size = 1, thickness = 1;  ///< [m], fraction of the size
     double turned = -1;              ///< relative rotation [rad]; -1: any
     double reach = 1.5;              ///< distance of the centres over the size
     bool same = false;
     double place = 0;   ///< distance from the world's origin [m]
-    double gap = -1e9;  ///< moved along the normal until the distance is this share of the size
+    double gap = -1e9;  ///< moved along the normal until the distance is this fraction of the size
 };
 constexpr Kind kKinds[] = {
     {"touching", 1, 1, -1, 1.5, false, 0, 0},
@@ -193,7 +194,7 @@ TEST(PublishedPairs, AgreeWithTheOracle) {
             if (skip) continue;
             ++queries;
             const double placed = 1e-15 * (norm(c.a.pose.position) + norm(c.b.pose.position));
-            // "sat" keeps a face while another axis is better by less than this share of the depth.
+            // "sat" keeps a face while another axis is better by less than this fraction of the depth.
             const double kept = 1e-7 * std::abs(exact->signedDistance);
             checkPair<engine::Space3d>({c.a.geometry, c.a.pose}, {c.b.geometry, c.b.pose},
                                        exact->signedDistance, size, 1e-12 * size + placed + kept);

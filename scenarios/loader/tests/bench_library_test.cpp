@@ -52,7 +52,7 @@ TEST_P(BenchLibrary, GrowsWithItsSize) {
     }
 }
 
-/// Radius of a ball around the body's frame that holds its shapes.
+/// Radius of a sphere around the body's frame that holds its shapes.
 double reach(const Body& body) {
     double r = 0.0;
     for (const Shape& shape : body.shapes) {
@@ -80,8 +80,8 @@ double core(const Body& body) {
     return r;
 }
 
-/// No two moving bodies share their cores, and none is in a wall: at the smallest, the usual and the largest
-/// size.
+/// No two moving bodies have overlapping cores, and none is in a wall: at the smallest, the usual and the
+/// largest size.
 TEST_P(BenchLibrary, StartsApart) {
     const Scenario usual = loadScenario(GetParam().file).scenario;
     for (const int size : {usual.bench->sizes.front(), *usual.size, usual.bench->sizes.back()}) {

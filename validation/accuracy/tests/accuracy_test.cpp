@@ -23,7 +23,8 @@ constexpr double kDt = 0.01;
 constexpr int kLast = 100;
 const Vec3 kVelocity{3, 4, 0};
 
-/// Balls that fly straight for a second, 5 m; the scheme's ideal run is late by the share `late` of the way.
+/// Balls that fly straight for a second, 5 m; the scheme's ideal run is late by the fraction `late` of the
+/// way.
 class Glide : public Reference {
   public:
     explicit Glide(const Scenario& scenario, double late) : scenario_(scenario), late_(late) {}

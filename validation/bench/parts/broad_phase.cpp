@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Broad phases by themselves: every box moves, all pairs are wanted. Timed is BroadPhase::run: each moved box
-// is passed to the engine in its own numbers, and the engine finds its pairs and leaves them in its own form:
-// a list (in-house), a cache of pairs (Bullet), the calls of its callback (ODE, FCL; new pairs alone for
-// Box2D, as its world has it). The following is not timed, for any engine: moving the boxes, turning them
-// into the engine's numbers, putting pairs in order, tests against the exact boxes. Times are means over the
-// updates: trees of fat AABBs do their work in bursts.
+// Broad phases by themselves: every box moves, all pairs are to be found. Timed is BroadPhase::run: each
+// moved box is passed to the engine in its own numbers, and the engine finds its pairs and leaves them in its
+// own form: a list (in-house), a cache of pairs (Bullet), the calls of its callback (ODE, FCL; new pairs
+// alone for Box2D, as its world has it). The following is not timed, for any engine: moving the boxes,
+// turning them into the engine's numbers, putting pairs in order, tests against the exact boxes. Times are
+// means over the updates: trees of fat AABBs do their work in bursts.
 #include <cmath>
 #include <nlohmann/json.hpp>
 

@@ -104,7 +104,8 @@ TEST(RoundOracle, CoaxialAndIdentical) {
     EXPECT_FALSE(nearly.continuum);
 }
 
-/// A box with an edge on the axis of a cylinder: half a ring of ways out, of which a quarter is as short.
+/// A box with an edge on the axis of a cylinder: half a ring of penetration vectors, of which a quarter is as
+/// short.
 TEST(RoundOracle, PartOfARing) {
     const auto answer = contact(kCan, {}, Box{{2, 2, 2}}, at(2, 0, 2));
     EXPECT_NEAR(answer.signedDistance, -0.5, 1e-15);

@@ -15,7 +15,7 @@ namespace {
 
 using scenario::BodyType;
 
-constexpr int kSamples = 96;         // times in the run at which the bodies are looked at
+constexpr int kSamples = 96;         // times in the run at which the bodies are tested
 constexpr double kTolerated = 2e-3;  // overlap beside the size: scenes start up to 1e-4 into the floor
 
 /// A ball inside a body; a vertex has radius zero.

@@ -73,7 +73,7 @@ class Dominoes : public Reference {
     }
 
   private:
-    /// The face of the second box that looks at the first, and the corners of the first.
+    /// The face of the second box that faces the first, and the corners of the first.
     void findFace(int floor) {
         const Body &first = scenario_.bodies[static_cast<std::size_t>(bodies_[0])],
                    &second = scenario_.bodies[static_cast<std::size_t>(bodies_[1])];

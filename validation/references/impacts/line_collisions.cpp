@@ -166,7 +166,7 @@ void LineCollisions::run(double end) {
         Member &a = next.members[left], &b = next.members[left + 1];
         const double e = pairCoefficients(scenario_, a.highMaterial, b.lowMaterial).restitution;
         const double u = a.velocity - b.velocity;
-        // Fixed bodies are infinitely heavy: shares of the velocity change.
+        // Fixed bodies are infinitely heavy: fractions of the velocity change.
         const double shareA = a.mass == 0.0 ? 0.0 : (b.mass == 0.0 ? 1.0 : b.mass / (a.mass + b.mass));
         a.velocity -= (1.0 + e) * shareA * u;
         b.velocity += (1.0 + e) * (1.0 - shareA) * u;

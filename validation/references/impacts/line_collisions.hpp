@@ -11,7 +11,7 @@ namespace rigor::validation {
 /// Each impact is between two bodies: va' = V - e mb u/M, vb' = V + e ma u/M with u = va - vb, V the velocity
 /// of the pair's centre of mass (Newton's law of restitution). Between impacts the motion is uniform.
 /// Assumes: centres of mass on one line, velocities along it, no spin, spheres or boxes (or a fixed
-/// half-space) that meet with their normals along it, and the same gravity on all (then in free fall
+/// half-space) that collide with their normals along it, and the same gravity on all (then in free fall
 /// together).
 class LineCollisions {
   public:

@@ -6,7 +6,7 @@
 //   1/mn = 1/ma + 1/mb, 1/mt = (1+1/ka)/ma + (1+1/kb)/mb; jn = (1+e) mn |un|; jt = min(mt |s|, mu jn) against
 //   s.
 // Source: Brach, Mechanical Impact Dynamics, 1991; Walton 1993; Foerster et al. 1994.
-// Assumes: free flight in the same gravity before and after; they meet within the duration.
+// Assumes: free flight in the same gravity before and after; they collide within the duration.
 // Quantities, for each body: velocity_x_<body>, velocity_y_<body> (velocity_z_<body>) right after the impact,
 // taken from the end of the run less what gravity has added since, and spin_<body>, in 3D spin_x_<body> and
 // so on.

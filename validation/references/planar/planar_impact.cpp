@@ -102,8 +102,8 @@ bool PlanarMotion::chatters(double& t, State& s) const {
 }
 
 /// The velocities after an impact in which both corners of a flat side stick and leave the floor at the given
-/// rates, where impulses within the cones of friction give them. These impulses share their tangential part
-/// in any way: both act along one line.
+/// rates, where impulses within the cones of friction give them. The distribution of the tangential part of
+/// these impulses is arbitrary: both act along one line.
 std::optional<PlanarMotion::State> PlanarMotion::bothStick(const std::vector<int>& corners, const State& s,
                                                            std::array<Real, 2> rates) const {
     const Arm a = armOf(corners[0], s.angle), b = armOf(corners[1], s.angle);

@@ -260,7 +260,7 @@ class RollingBody : public Reference {
         return load > 0 && (!rolls_ || friction <= holds_ * load * (1 + 1e-9L));
     }
 
-    /// Inertia and offset share an axis.
+    /// Inertia and offset have an axis in common.
     bool hasJellett() const {
         const Real offset = norm(center_);
         if (offset == 0) {

@@ -3,8 +3,7 @@
 //
 // Many blocks launched in different directions on one floor: isotropic friction stops each after v^2/(2 mu g)
 // on a straight line. A friction pyramid stops the diagonal ones after 1/sqrt(2) of it, and bends the others.
-// Source: Coulomb 1785.
-// Assumes for each body what sliding_stop assumes, and that the blocks never meet.
+// Source: Coulomb 1785. Assumes for each body what sliding_stop assumes, and that the blocks never collide.
 // Quantities: stop_distance_<body>, and deflection_<body>: final distance from the line of launch over the
 // stopping distance, exactly 0.
 #include <cmath>

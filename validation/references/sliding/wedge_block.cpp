@@ -146,7 +146,8 @@ class WedgeBlock : public Reference {
     }
 
     void checkTipping() {
-        // The block's push goes through its centre of mass: the pressure is where that line meets the face.
+        // The block's push goes through its centre of mass: the pressure is where that line intersects the
+        // face.
         const Vec3 com = centerOfMass(at(block_));
         const double depth = dot(normal_, com - base_.front());
         const Vec3 pressure = com - (depth / dot(normal_, pushBlock_)) * pushBlock_;

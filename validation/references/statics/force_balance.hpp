@@ -33,7 +33,7 @@ struct LoadedBodies {
     };
     struct Contact {
         int a = -1, b = -1;  ///< bodies; -1: fixed
-        int pair = 0;        ///< a number that all contacts of the same two bodies share
+        int pair = 0;        ///< a number that is the same for all contacts of two bodies
         Vec3 point, normal;  ///< world [m]; from a to b, of length 1 up to rounding
         double friction = 0.0;
     };

@@ -74,7 +74,7 @@ TEST(MeasuredMotion, BetweenSamplesPositionIsLinearAndTheTurnUniformAndShort) {
     const Scenario s = tossed(r);
     const auto reference = makeReference(s);
     for (std::size_t k = 0; k + 1 < r.times.size(); ++k) {
-        // A second way: the world rotation vector of the whole turn, a share of it in front.
+        // A second way: the world rotation vector of the whole turn, a fraction of it in front.
         Quat turn = r.q(k + 1) * conjugate(r.q(k));
         if (turn.w < 0) turn = {-turn.w, -turn.x, -turn.y, -turn.z};
         const Vec3 v{turn.x, turn.y, turn.z};

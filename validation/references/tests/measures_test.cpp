@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Frames, drives and measures that several references share, with values that leave nothing hidden: masses
-// other than one, tilted floors, bodies that start turned, centres of mass off the origin.
+// Frames, drives and measures of several references, with values that are all different: masses other than
+// one, tilted floors, bodies that start turned, centres of mass off the origin.
 #include <gtest/gtest.h>
 
 #include <algorithm>

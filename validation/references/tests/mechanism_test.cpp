@@ -70,7 +70,7 @@ TEST(Mechanism, ForcesOnTheBodiesAreThoseOfTheJoints) {
     }
     EXPECT_GT(norm(outer), 10.0);
     EXPECT_NEAR(energyOf(s, *r, t), energyOf(s, *r, 0), 1e-9);
-    // Neighbours meet at their hinge and share its axis.
+    // Neighbours are joined at their hinge and have its axis in common.
     for (const auto& joint : s.joints) {
         const Vec3 a = joint.bodyA == kNone ? joint.anchorA : pointAt(*r, joint.bodyA, t, joint.anchorA);
         expectNear(a, pointAt(*r, joint.bodyB, t, joint.anchorB), 1e-9);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// planar_motion of boxes that bounce, rock and slide against a second method that shares nothing with it:
-// Moreau's time stepping, impulses at the corners by projected Gauss-Seidel in every step. Its error is of
-// the order of the step, and is estimated by a run with half the step. The end of the motion is tested too.
+// planar_motion of boxes that bounce, rock and slide against a second method that has nothing in common with
+// it: Moreau's time stepping, impulses at the corners by projected Gauss-Seidel in every step. Its error is
+// of the order of the step, and is estimated by a run with half the step. The end of the motion is tested
+// too.
 #include <gtest/gtest.h>
 
 #include <algorithm>

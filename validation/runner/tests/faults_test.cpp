@@ -63,7 +63,7 @@ const std::string kTop = scene("top", R"("gravity": [0, 0, 0], "duration": 1,
   "accept": {"*": {"orientation_max": {"max": 0.0005, "order": 2}, "spin_final": {"max": 0.0012, "order": 2},
     "angular_momentum_drift": 1e-11, "energy_drift": {"max": 2e-4, "order": 2}}})");
 
-/// A ball meets another one that spins; they touch at the end of a step.
+/// A ball hits another one that spins; they touch at the end of a step.
 const std::string kImpact = scene("impact", R"("gravity": [0, 0, 0], "duration": 0.5, "dt": [0.0078125],
   "materials": {"steel": {"friction": 0.1, "restitution": 0.5}},
   "bodies": [
@@ -75,7 +75,7 @@ const std::string kImpact = scene("impact", R"("gravity": [0, 0, 0], "duration":
   "accept": {"*": {"velocity_final": 1e-9, "spin_final": 1e-9, "normal_error": 1e-7, "overlap_max": 1e-12,
     "linear_momentum_drift": 1e-12, "energy_gain": 1e-12}})");
 
-/// A ball meets a wall; it touches at the end of a step.
+/// A ball hits a wall; it touches at the end of a step.
 const std::string kBounce = scene("bounce", R"("gravity": [0, 0, 0], "duration": 0.5, "dt": [0.0078125],
   "materials": {"steel": {"friction": 0.25, "restitution": 0.5}},
   "bodies": [

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The k-th order of a scenario lists the same things, differently each time, and the results are reported for
-// the bodies and shapes as they were written.
+// The k-th order of a scenario lists the same objects in another order, and the results are reported for the
+// bodies and shapes as they were written.
 #include "validation/symmetry/listing.hpp"
 
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Push: a block on a floor that sticks, pushed by a force and a torque in Bullet alone (the block `low` of
-// tipping_push). The friction of a step sees the force that was applied, not the torque: the base creeps at
-// torque dt / I times its distance from the centre of mass. Given as a change of the angular velocity before the
-// step, the same torque is seen and the base stays.
+// tipping_push). The friction of a step uses the force that was applied, not the torque: the base creeps at
+// torque dt / I times its distance from the centre of mass. Given as a change of the angular velocity before
+// the step, the same torque is seen and the base stays.
 #include "adapters/conformance/plain_programs/bullet/rigid_body_base.hpp"
 
 namespace rigor::plain {

@@ -32,8 +32,8 @@ TEST(PlainOde, MechanismsAreHeldOnVelocities) {
     }
 }
 
-/// Energy lost and the distance from the exact motion (positions held, steps of 1/3840 s), of the scheme as ODE
-/// has it and with one thing changed.
+/// Energy lost and the distance from the exact motion (positions held, steps of 1/3840 s), of the scheme as
+/// ODE has it and with one change.
 TEST(PlainOde, WhatHoldingJointsOnVelocitiesCosts) {
     for (const char* path : kMechanisms) {
         SCOPED_TRACE(path);

@@ -45,7 +45,7 @@ class OdeSimulation {
         dSpaceAdd(space, geom);
         return geom;
     }
-    /// A body of this mass at rest; null, a fixed thing, where the mass is null.
+    /// A body of this mass at rest; null, a fixed object, if the mass is null.
     dBodyID addBody(const dMass* mass, const Vec3& position) {
         dBodyID body = nullptr;
         if (mass != nullptr) {

@@ -199,7 +199,7 @@ TEST(PosedPairs, AreAsDeepAsTheyClaim) {
         const PosedPairs pairs = makePosedPairs(kind, 20, 20, 3);
         ASSERT_EQ(pairs.depths.size(), 20u);
         for (const double depth : pairs.depths) {
-            // B is moved in by 0.05 m: the shortest way out is at most that, and not nothing.
+            // B is moved in by 0.05 m: the least penetration is at most that, and not zero.
             if (kind.closeness == Closeness::Overlap) {
                 EXPECT_THAT(depth, AllOf(Ge(0.005), Le(0.05 + 1e-6)));
             }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// An auditor that sees contact everywhere.
+// An auditor that reports contact everywhere.
 #include "validation/runner/tests/doubles/ball_collisions.hpp"
 
 namespace rigor::doubles {

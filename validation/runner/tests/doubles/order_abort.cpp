@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Aborts in its fifth step unless the first body that it was handed is static.
+// Aborts in its fifth step unless the first body that it got is static.
 #include "validation/runner/tests/doubles/free_flight.hpp"
 
 namespace rigor::doubles {

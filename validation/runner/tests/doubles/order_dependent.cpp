@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Moves the body of index i by i mm along x in its fifth step: what a run gives depends on the order in which
-// its bodies were handed over, by a known amount.
+// its bodies were passed, by a known amount.
 #include "validation/runner/tests/doubles/free_flight.hpp"
 
 namespace rigor::doubles {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // An engine whose broad phase and narrow phase can be timed by themselves, and are right or wrong by choice:
-//   broad_phase   brute_force; forgetful: the last pair is missing; generous: everything with everything
+//   broad_phase   brute_force; forgetful: the last pair is missing; generous: all pairs
 //   narrow_phase  balls, in closed form; deep: a centimetre too deep; blind: no contacts; excited: contacts
 //                 where there are none
 #include <algorithm>
