@@ -135,8 +135,8 @@ TYPED_TEST(WideLaws, BounceAboveTheThresholdAndNotBelow) {
     }
 }
 
-/// For every place at which a step ends, also within the speculative distance, a sphere hits with all of its
-/// speed and rebounds by the restitution.
+/// A sphere hits with all of its speed and rebounds by the restitution wherever in its way the step ends, also
+/// within the speculative distance.
 TYPED_TEST(WideLaws, ReboundDoesNotDependOnTheGapBeforeIt) {
     using S = TypeParam;
     using R = typename S::Real;
