@@ -69,7 +69,7 @@ int collide(const CollideArguments& a) {
         files, specs, options,
         [live](std::int64_t done, std::int64_t total) {
             if (live)
-                std::fprintf(stderr, "\r\033[K%lld/%lld answers", static_cast<long long>(done),
+                std::fprintf(stderr, "\r\033[K%lld/%lld results", static_cast<long long>(done),
                              static_cast<long long>(total));
         },
         interrupted);
@@ -89,7 +89,7 @@ int collide(const CollideArguments& a) {
 
 void addRandom(CLI::App& command, CollideArguments& a) {
     auto* random =
-        command.add_option("--random", a.random.count, "So many random pairs, exact answers by the oracle")
+        command.add_option("--random", a.random.count, "So many random pairs, exact results by the oracle")
             ->check(CLI::Range(1, 10000000));
     const auto of = [&](const char* name, auto& value, const std::string& help) {
         return command.add_option(name, value, "Of --random: " + help)->needs(random);
@@ -134,11 +134,11 @@ void addCollide(CLI::App& app, Action& action) {
         ->add_option("--angle", a->tolerance.angle,
                      "Tolerance of normals, from the nearest minimiser [rad] (default 1e-6)")
         ->check(CLI::Range(0.0, 3.2));
-    command->add_flag("--all", a->all, "Print every answer, not only the wrong ones of a large file");
+    command->add_flag("--all", a->all, "Print every result, not only the wrong ones of a large file");
     command->add_flag("--json", a->json, "Print the full record as JSON");
     command->add_flag("-q,--quiet", a->quiet, "No progress");
     command->footer(
-        "Exit codes: 0 no answer of the in-house engine is wrong or missing and the oracle agrees with the "
+        "Exit codes: 0 no result of the in-house engine is wrong or missing and the oracle agrees with the "
         "files,\n"
         "            1 otherwise (other engines' errors are reported and do not count), 2 bad command line "
         "or\n"

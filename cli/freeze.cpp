@@ -38,7 +38,7 @@ int exportStep(const FreezeArguments& a) {
                 request.step, loaded.scenario.name.c_str(), request.spec.text().c_str(), summary.time,
                 summary.contacts, summary.bodies);
     if (summary.storedResidual >= 0.0)
-        std::printf(", natural map of the engine's own answer %.1e", summary.storedResidual);
+        std::printf(", natural map of the engine's own solution %.1e", summary.storedResidual);
     std::printf("\n");
     return kOk;
 }

@@ -24,11 +24,11 @@ const char* expectedOf(ReferenceOutcome outcome) {
         case ReferenceOutcome::Assumption:
             return "values for which the reference holds";
         case ReferenceOutcome::Timeout:
-            return "an answer in that time; --reference-limit SECONDS gives it more";
+            return "a solution in that time; --reference-limit SECONDS gives it more";
         case ReferenceOutcome::Invalid:
             return "a reference of `rigor list references`";
         default:
-            return "an answer";
+            return "a solution";
     }
 }
 

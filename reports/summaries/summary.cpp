@@ -65,7 +65,7 @@ std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
         "the order of insertion, ⇅ in its verdict, and the relative error that the grade rests on, at the "
         "finest time step; of "
         "a scene "
-        "without an exact answer how it ended (✓ bounds kept, ○ ran) and its main metric.\n\n</details>\n";
+        "without an exact solution how it ended (✓ bounds kept, ○ ran) and its main metric.\n\n</details>\n";
     std::size_t used = out.size() + end.size() + 100, shown = 0;
     std::vector<std::string> rows(scenarios);
     for (const std::size_t s : byTrouble(view)) {

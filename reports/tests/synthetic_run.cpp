@@ -182,7 +182,7 @@ void grade(CaseRow& c, double rng) {
                                 : Regression::Unchanged;
     if (rng < 0.05) c.regressionReason = "position_max 0.01 -> 0.02 m";
     if (c.outcome != Outcome::Completed || c.metrics.empty() || c.metrics[0].kind != "exact") {
-        c.accuracy.note = "no exact answer";
+        c.accuracy.note = "no exact solution";
         return;
     }
     for (MetricRow& m : c.metrics)
@@ -216,7 +216,7 @@ CaseRow makeCase(const ScenarioRow& s, const Kind& kind, const std::string& spec
     else if (fate < 0.01)
         setOutcome(c, Outcome::Crashed, Verdict::Crashed, "SIGSEGV after 12 steps <at> 0x0 & more");
     else if (fate < 0.015)
-        setOutcome(c, Outcome::Timeout, Verdict::Timeout, "no answer within 60 s");
+        setOutcome(c, Outcome::Timeout, Verdict::Timeout, "no result within 60 s");
     else if (fate < 0.02)
         setOutcome(c, Outcome::OutOfMemory, Verdict::Crashed, "more than 4096 MiB");
     else if (fate < 0.03) {
@@ -340,7 +340,7 @@ Run makeHardRun() {
         Verdict verdict;
         const char* reason;
     } ends[] = {{Outcome::Crashed, Verdict::Crashed, "SIGSEGV after 12 steps\n\x1b[31m<script>\xff"},
-                {Outcome::Timeout, Verdict::Timeout, "no answer within 60 s"},
+                {Outcome::Timeout, Verdict::Timeout, "no result within 60 s"},
                 {Outcome::OutOfMemory, Verdict::Crashed, "more than 4096 MiB"},
                 {Outcome::Error, Verdict::Fail, "the module could not be loaded: | & % $ # _ { } ~ ^ \\"},
                 {Outcome::Unsupported, Verdict::Unsupported, ""}};

@@ -119,7 +119,7 @@ TEST(ViewModel, LetterNumberAndRatiosSpeakOfTheSameError) {
     EXPECT_EQ(cellText(view, 0, 0, true), "D 0.05");
     EXPECT_EQ(cellText(view, 0, 1, true), "D 0.1");
     EXPECT_DOUBLE_EQ(view.ratios(run.cases[1]).toBest, 2.0);
-    run.cases[0].accuracy = run.cases[1].accuracy = {results::Grade::None, "", {}, {}, "no exact answer"};
+    run.cases[0].accuracy = run.cases[1].accuracy = {results::Grade::None, "", {}, {}, "no exact solution"};
     const ViewModel ungraded(run);
     EXPECT_EQ(cellText(ungraded, 0, 1, true), "○ 1") << "how it ended, and the main metric";
 }
@@ -146,8 +146,8 @@ TEST(ViewModel, SentencesSayWhatWasComparedWithWhat) {
               "its scheme has 0.005 (C): this is farther off than its scheme.");
     c.accuracy.ideal = 0.02;
     EXPECT_NE(accuracySentence(c).find("as good as its scheme allows"), std::string::npos);
-    c.accuracy = {results::Grade::None, "", {}, {}, "no exact answer"};
-    EXPECT_EQ(accuracySentence(c), "Not graded: no exact answer.");
+    c.accuracy = {results::Grade::None, "", {}, {}, "no exact solution"};
+    EXPECT_EQ(accuracySentence(c), "Not graded: no exact solution.");
     c.outcome = Outcome::Timeout;
     EXPECT_EQ(accuracySentence(c), "Not graded: timeout.");
     c.regression = Regression::Worse;

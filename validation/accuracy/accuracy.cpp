@@ -37,7 +37,7 @@ bool isRecording(const Reference& reference) {
 
 std::string whyNotGraded(const Scenario& scenario, const Reference* reference) {
     if (reference == nullptr)
-        return scenario.reference ? "the exact solution does not hold for these values" : "no exact answer";
+        return scenario.reference ? "the exact solution does not hold for these values" : "no exact solution";
     return isRecording(*reference) ? "compared with a recording, which has errors of its own" : "";
 }
 
@@ -207,7 +207,7 @@ results::AccuracyRow RelativeErrors::accuracyOf(const std::vector<MetricRow>& ro
         accuracy.grade = results::gradeOf(*row.relative);
     }
     if (accuracy.grade == results::Grade::None)
-        accuracy.note = "none of the metrics named has an exact answer";
+        accuracy.note = "none of the metrics named has an exact solution";
     return accuracy;
 }
 

@@ -40,7 +40,7 @@ CollideAnswer lostAnswer(const ProcessResult& result) {
     CollideAnswer answer;
     const bool late = result.timedOut || (WIFSIGNALED(result.status) && WTERMSIG(result.status) == SIGALRM);
     answer.verdict = late ? CollideVerdict::Timeout : CollideVerdict::Crashed;
-    answer.message = late ? "no answer within the time limit" : result.ending();
+    answer.message = late ? "no result within the time limit" : result.ending();
     const auto end = result.outputTail.find_last_not_of(" \r\n");
     if (!late && end != std::string::npos) {
         const auto line = result.outputTail.rfind('\n', end);

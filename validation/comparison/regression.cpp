@@ -118,7 +118,7 @@ void compareWithRecord(const Record& record, const results::ScenarioRow& scenari
     row.regression = change.state;
     row.regressionReason = change.text;
     if (change.state == Regression::Unchanged && isChaotic)
-        row.regressionReason = "no exact answer: how it ends is compared, not its numbers";
+        row.regressionReason = "no exact solution: how it ends is compared, not its numbers";
 }
 
 }  // namespace rigor::validation

@@ -84,7 +84,7 @@ InstanceProcess::Answer InstanceProcess::end(Answer::Kind kind, double seconds) 
     if (late) kill();
     const std::string ending = collect(late);
     char text[64];
-    std::snprintf(text, sizeof text, "no answer within %g s", seconds);
+    std::snprintf(text, sizeof text, "no response within %g s", seconds);
     ended_ = {kind, {}, "", late ? text : ending};
     return *ended_;
 }

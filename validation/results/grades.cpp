@@ -16,7 +16,7 @@ struct Row {
     double limit;
 };
 constexpr std::array<Row, 6> kRows{
-    {{Grade::None, "", "no exact answer", 0.0},
+    {{Grade::None, "", "no exact solution", 0.0},
      {Grade::A, "A", "relative error up to 1e-6", 1e-6},
      {Grade::B, "B", "relative error up to 1e-4", 1e-4},
      {Grade::C, "C", "relative error up to 1e-2", 1e-2},

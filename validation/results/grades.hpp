@@ -19,7 +19,7 @@ enum class Grade { None, A, B, C, D, E };
 inline constexpr std::array<Grade, 5> kGrades{Grade::A, Grade::B, Grade::C, Grade::D, Grade::E};
 
 const char* gradeName(Grade grade);     ///< "A" .. "E"; "" for None
-const char* gradeMeaning(Grade grade);  ///< "relative error up to 1e-6", ...; "no exact answer" for None
+const char* gradeMeaning(Grade grade);  ///< "relative error up to 1e-6", ...; "no exact solution" for None
 /// Throws std::runtime_error for anything that gradeName() does not return.
 Grade parseGrade(const std::string& name);
 

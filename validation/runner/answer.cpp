@@ -97,7 +97,7 @@ double numberFromJson(const json& j) {
     if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
     if (text == "inf") return std::numeric_limits<double>::infinity();
     if (text == "-inf") return -std::numeric_limits<double>::infinity();
-    throw std::runtime_error("answer of a child: found '" + text + "', expected a number");
+    throw std::runtime_error("result of a child: found '" + text + "', expected a number");
 }
 
 json auditToJson(const AuditRow& a) {

@@ -30,7 +30,7 @@ AuditRow failedRow(const std::string& auditor, const ProcessResult& result) {
     AuditRow row;
     row.auditor = auditor;
     row.outcome = result.timedOut ? "timeout" : "crashed";
-    row.note = result.timedOut ? "no answer within the time limit" : result.ending();
+    row.note = result.timedOut ? "no result within the time limit" : result.ending();
     return row;
 }
 }  // namespace

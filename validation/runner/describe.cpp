@@ -146,7 +146,7 @@ std::vector<EngineDescription> describeEngines(const std::vector<std::string>& e
                           readDescription(*json, d);
                           return;
                       }
-                      d.problem = result.timedOut ? "no answer within the time limit" : result.ending();
+                      d.problem = result.timedOut ? "no result within the time limit" : result.ending();
                       if (const std::string line = lastLine(result.outputTail); !line.empty())
                           d.problem += ": " + line;
                   }});

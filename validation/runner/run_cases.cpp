@@ -70,7 +70,7 @@ CaseRow failedRow(const CasePlan& plan, std::int64_t position, const ProcessResu
     } else {
         row.outcome = Outcome::Crashed;
         row.reason = result.ending();
-        if (!WIFSIGNALED(result.status)) row.reason += " without an answer";
+        if (!WIFSIGNALED(result.status)) row.reason += " without a result";
     }
     if (const std::string said = readable(result.outputTail); !said.empty())
         row.reason += "; it said: " + said;

@@ -193,7 +193,7 @@ TEST(IdealRun, HasTheErrorOfItsScheme) {
 
 TEST(NoGrade, WithoutAnExactAnswerAndAgainstARecording) {
     Flight flight;
-    EXPECT_EQ(whyNotGraded(flight.scenario, nullptr), "no exact answer");
+    EXPECT_EQ(whyNotGraded(flight.scenario, nullptr), "no exact solution");
     class Filmed : public Reference {
         std::vector<int> bodies() const override { return {0}; }
         std::optional<PartialState> measured(int, double) const override { return PartialState{}; }
@@ -203,7 +203,7 @@ TEST(NoGrade, WithoutAnExactAnswerAndAgainstARecording) {
     input.reference = nullptr;
     const RelativeErrors none(input);
     EXPECT_EQ(none.accuracyOf({}).grade, Grade::None);
-    EXPECT_EQ(none.accuracyOf({}).note, "no exact answer");
+    EXPECT_EQ(none.accuracyOf({}).note, "no exact solution");
 }
 
 /// A metric that a scenario names is graded, unless it compares with no exact solution at all.

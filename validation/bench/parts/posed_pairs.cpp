@@ -109,7 +109,7 @@ class PairMaker {
         for (int k = 0; k < 50; ++k) {
             Xb.position = t * d;
             const auto exact = exactContact(a, Xa, b, Xb, kind_.dimension);
-            if (!exact) throw std::invalid_argument("pair kind without an exact answer: " + kind_.name());
+            if (!exact) throw std::invalid_argument("pair kind without an exact result: " + kind_.name());
             if (exact->signedDistance < 1e-9) break;
             t -= exact->signedDistance / std::max(0.05, dot(exact->normals.front(), d));
         }

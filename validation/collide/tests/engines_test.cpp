@@ -190,7 +190,7 @@ TEST_P(KnownWrongAnswers, AreFoundAndNoOthers) {
         const auto known = std::find_if(std::begin(kKnown), std::end(kKnown), isThis);
         if (known == std::end(kKnown)) {
             EXPECT_TRUE(a.verdict == V::Ok || a.verdict == V::Unsupported)
-                << "a new wrong answer: " << collideVerdictName(a.verdict) << ", "
+                << "a new wrong result: " << collideVerdictName(a.verdict) << ", "
                 << a.signedDistance.value_or(0) << " m";
         } else {
             EXPECT_EQ(a.verdict, known->verdict)

@@ -213,12 +213,12 @@ PlanarMotion::Mode PlanarMotion::impact(double& t, State& s, const std::vector<i
         if (const auto both = bothStick(corners, s, {target(0), target(1)}))
             outcomes.push_back({*both, {1, 1}});
     }
-    require(!outcomes.empty(), "an impact has no answer by the laws of Newton and Coulomb");
+    require(!outcomes.empty(), "an impact has no solution by the laws of Newton and Coulomb");
     for (const Outcome& other : outcomes) {
         const State &a = other.state, &b = outcomes[0].state;
         require(std::abs(a.vx - b.vx) + std::abs(a.vz - b.vz) + setup_.size * std::abs(a.rate - b.rate) <=
                     1e-8L * speed,
-                "an impact has several answers by the laws of Newton and Coulomb");
+                "an impact has several solutions by the laws of Newton and Coulomb");
     }
     const State before = s;
     s = outcomes[0].state;

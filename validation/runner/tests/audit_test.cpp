@@ -85,7 +85,8 @@ TEST_F(Audit, AnAuditorThatCrashesCostsItsOwnRowOnly) {
         });
         EXPECT_EQ(alone, 9) << "the oracle, the run and seven auditors";
         for (const AuditRow& row : c.audit)
-            EXPECT_EQ(row.auditor.find("abort|"), std::string::npos) << "who gave no answers has no pairs";
+            EXPECT_EQ(row.auditor.find("abort|"), std::string::npos)
+                << "an auditor without results has no pairs";
     }
 }
 

@@ -143,7 +143,7 @@ TEST_F(RunCases, EveryFaultCostsOneRow) {
           Expected{"double_abort", Outcome::Crashed, Verdict::Crashed, "assertion failed: mass > 0"},
           Expected{"double_hang", Outcome::Timeout, Verdict::Timeout, "no end within 4 s"},
           Expected{"double_nan", Outcome::NonFinite, Verdict::NonFinite, "ball is not finite"},
-          Expected{"double_exit", Outcome::Crashed, Verdict::Crashed, "exit code 0 without an answer"},
+          Expected{"double_exit", Outcome::Crashed, Verdict::Crashed, "exit code 0 without a result"},
           Expected{"double_throw", Outcome::Error, Verdict::Fail, "the library is unhappy"},
           Expected{"double_heavy", Outcome::Completed, Verdict::Fail, "mass of ball: found 4, expected 2"},
           Expected{"double_free_flight", Outcome::Completed, Verdict::Pass, ""}}) {

@@ -27,7 +27,7 @@ export class SessionView {
       this.onSay?.('');
       return answer;
     } catch (error) {
-      this.onSay?.(error instanceof Refused ? error.message : 'The server does not answer.');
+      this.onSay?.(error instanceof Refused ? error.message : 'The server does not respond.');
       return null;
     }
   }

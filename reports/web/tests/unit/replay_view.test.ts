@@ -198,7 +198,7 @@ test('jumps', () => {
   assert.equal(contactEvent([a, b], 0.1, true)?.event.time, 1);
   assert.equal(contactEvent([a, b], 0.5, false)?.event.time, 0.1);
   assert.equal(contactEvent([a, b], 1, true), null);
-  assert.equal(worstNormal([a, b])?.event.what, 'a', 'what the engine itself answered comes first');
+  assert.equal(worstNormal([a, b])?.event.what, 'a', 'results of the engine itself come first');
   assert.equal(describe(b.events[0] as ReplayEvent), 'leaves the reference, ball: 0.02 m (more than 0.01 m)');
   const inRun: ReplayEvent = { time: 1, kind: 'audit', what: 'in_run', subject: 'ball|box', value: 0.5, unit: 'rad' };
   assert.equal(describe(inRun), 'worst contact geometry of its own run, ball and box: 0.5 rad');

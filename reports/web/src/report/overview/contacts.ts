@@ -31,7 +31,7 @@ function inRunCell(s: Scenario, column: Column): HTMLElement {
   if (!sum('overlapping') && !wrong)
     return el('td', { class: 'small muted', title: `${sum('queries')} pairs queried` }, 'no overlap');
   if (!wrong && worst('normal') === null)
-    return el('td', { class: 'small muted', title: 'shapes for which the oracle has no exact answer' }, 'undecided');
+    return el('td', { class: 'small muted', title: 'shapes for which the oracle has no exact result' }, 'undecided');
   const flicker = toNumber(worst('contactFlicker'));
   const title =
     `${sum('queries')} pairs, ${sum('overlapping')} overlapping; ${sum('missed')} missed, ${sum('spurious')} spurious; ` +
@@ -119,7 +119,7 @@ export function contactQueries(): HTMLElement | null {
       'p',
       { class: 'muted' },
       'At sampled frames of every run, each collision engine is queried at the same poses and compared with an exact oracle. Shown: the worst angle between ',
-      'its contact normal and the nearest exact one, and the worst penetration error below; “wrong” counts overlaps that were missed or invented. A link shows the poses queried, with the contacts of the run, not the answer.',
+      'its contact normal and the nearest exact one, and the worst penetration error below; “wrong” counts overlaps that were missed or invented. A link shows the poses queried, with the contacts of the run, not the result of the query.',
     ),
     scroll(
       el(

@@ -79,9 +79,9 @@ export function method(): HTMLElement {
     el(
       'p',
       null,
-      'Every metric that compares with an exact answer or a known zero is divided by the scenario’s own scale of it: the distance gone, the angle turned, the largest speed, the energy turned over, ',
+      'Every metric that compares with an exact solution or a known zero is divided by the scenario’s own scale of it: the distance gone, the angle turned, the largest speed, the energy turned over, ',
       'the time to the event, the size of the smallest body for gaps and overlaps. Scales come from the scenario and its exact solution, never from a run, and are the same for every engine and time step. ',
-      'The worst of the metrics that the scenario names is its grade. Scenes without an exact answer have none.',
+      'The worst of the metrics that the scenario names is its grade. Scenes without an exact solution have none.',
     ),
     el(
       'ul',
@@ -98,7 +98,7 @@ export function method(): HTMLElement {
     el(
       'p',
       null,
-      'Each version of each engine has its numbers on record. A run is unchanged within 1 % of them and the rounding of its precision, else better or worse; of scenes without an exact answer the ending is compared. ',
+      'Each version of each engine has its numbers on record. A run is unchanged within 1 % of them and the rounding of its precision, else better or worse; of scenes without an exact solution the ending is compared. ',
       'A run is red where the in-house engine became worse, another engine lost a grade or an ending, or a case crashed, timed out or was not finite. This says nothing of accuracy.',
     ),
     el('h3', null, 'How a case ended'),

@@ -240,7 +240,7 @@ function legend(): HTMLElement {
       'span',
       { class: 'small muted' },
       'The letter is the grade of accuracy at the finest time step: the worst error over the metrics that the scenario names, each over the scenario’s own scale. ',
-      'The number is that relative error; the best of a row is underlined. A scene without an exact answer has no letter: its cells are grey, with how the run ended and its main metric. ▼ ▲: worse or better than on record. ',
+      'The number is that relative error; the best of a row is underlined. A scene without an exact solution has no letter: its cells are grey, with how the run ended and its main metric. ▼ ▲: worse or better than on record. ',
       run.scenarios.some((s) => s.cases.some((c) => c.judged.orders))
         ? '↕: depends on the order in which bodies, shapes, joints and forces are handed over; number and grade are of the order as written. ⇅: so does the verdict, or how the run ends. '
         : '',

@@ -53,7 +53,7 @@ function answer(m: Mechanism, list: Placed[]): Child {
   return el(
     'p',
     { class: 'answer' },
-    'Nearest to the exact answers: ',
+    'Nearest to the exact solutions: ',
     el('b', null, best.column.label),
     `, within a hundredth of the scene’s own scale in ${best.within} of ${best.scenarios}${error}${cost}.`,
   );
