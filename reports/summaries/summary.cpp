@@ -60,12 +60,10 @@ std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
     out += "\n" + rule + "\n";
     const std::string end =
         "\nA cell: grade of accuracy (A to 1e-6, B to 1e-4, C to 1e-2, D to 1e-1 of the scenario's own "
-        "scale, E "
-        "beyond), △ wrong physics with a reason on file, ▼ ▲ worse or better than on record, ↕ depends on "
-        "the order of insertion, ⇅ in its verdict, and the relative error that the grade rests on, at the "
-        "finest time step; of "
-        "a scene "
-        "without an exact solution how it ended (✓ bounds kept, ○ ran) and its main metric.\n\n</details>\n";
+        "scale, E beyond), △ wrong physics with a reason on file, ▼ ▲ worse or better than on record, ↕ "
+        "depends on the order of insertion, ⇅ in its verdict, and the relative error that the grade "
+        "rests on, at the finest time step; of a scene without an exact solution how it ended (✓ bounds "
+        "kept, ○ ran) and its main metric.\n\n</details>\n";
     std::size_t used = out.size() + end.size() + 100, shown = 0;
     std::vector<std::string> rows(scenarios);
     for (const std::size_t s : byTrouble(view)) {
