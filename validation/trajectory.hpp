@@ -28,9 +28,7 @@ struct Trajectory {
                    ///< empty
 
     std::size_t frames() const { return times.size(); }
-    const BodyState& state(std::size_t frame, int body) const {
-        return states[frame * bodyCount + static_cast<std::size_t>(body)];
-    }
+    const BodyState& state(std::size_t frame, int body) const { return states[frame * bodyCount + body]; }
     std::span<const BodyState> frame(std::size_t f) const {
         return {states.data() + f * bodyCount, bodyCount};
     }

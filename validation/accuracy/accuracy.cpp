@@ -55,10 +55,10 @@ IdealRun idealRun(const MetricInput& input) {
     ideal.position = ideal.orientation = ideal.velocity = ideal.spin = !bodies.empty();
     for (const int body : bodies)
         for (std::size_t frame = 0; frame < frames; ++frame) {
-            const auto step = frame * static_cast<std::size_t>(like.stride);
+            const auto step = frame * like.stride;
             const auto known =
                 input.reference->schemeExact(body, step, like.dt, input.scheme).value_or(PartialState{});
-            BodyState& state = ideal.run.states[frame * like.bodyCount + static_cast<std::size_t>(body)];
+            BodyState& state = ideal.run.states[frame * like.bodyCount + body];
             const auto set = [](auto& to, const auto& from, bool& isKnown) {
                 isKnown = isKnown && from.has_value();
                 if (from) to = *from;

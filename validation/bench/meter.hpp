@@ -34,8 +34,8 @@ class CountingStopwatch {
     /// Calls and bytes of an operation, in the mean.
     void writeAllocations(results::BenchRepetition& done) const {
         if (!allocationsSoFar() || !(operations_ > 0.0)) return;
-        done.allocations = static_cast<double>(counted_.calls) / operations_;
-        done.allocatedBytes = static_cast<double>(counted_.bytes) / operations_;
+        done.allocations = counted_.calls / operations_;
+        done.allocatedBytes = counted_.bytes / operations_;
     }
 
   private:

@@ -69,7 +69,7 @@ std::string memory(const BenchCase& c) {
     std::int64_t most = 0;
     for (const BenchRepetition& r : c.repetitions)
         if (r.round > 0) most = std::max(most, r.ownMemoryKiB);
-    return most > 0 ? number(static_cast<double>(most) / 1024.0) : "-";
+    return most > 0 ? number(most / 1024.0) : "-";
 }
 
 std::string allocations(const BenchCase& c) {
@@ -293,7 +293,7 @@ std::string benchText(const results::Run& run, bool colour) {
     std::string text;
     bool wide = false, counted = false, asleep = false;
     for (std::size_t i = 0; i < bench.cases.size(); ++i) {
-        const bool first = std::none_of(bench.cases.begin(), bench.cases.begin() + static_cast<long>(i),
+        const bool first = std::none_of(bench.cases.begin(), bench.cases.begin() + i,
                                         [&](const BenchCase& c) { return sameGroup(c, bench.cases[i]); });
         if (!first) continue;
         std::vector<const BenchCase*> group;

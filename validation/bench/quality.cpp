@@ -46,7 +46,7 @@ double worse(double a, double b) {
 double touchingPairs(const std::vector<ContactPoint>& contacts) {
     std::set<std::pair<int, int>> pairs;
     for (const ContactPoint& c : contacts) pairs.emplace(c.bodyA, c.bodyB);
-    return static_cast<double>(pairs.size());
+    return pairs.size();
 }
 
 QualityMeter::QualityMeter(const scenario::Scenario& scenario, std::span<const BodyState> start)
@@ -87,7 +87,7 @@ void QualityMeter::finish(std::span<const BodyState> states, const std::vector<C
             ++overlapping;
         }
     }
-    meanPenetration_ = overlapping > 0 ? sum / static_cast<double>(overlapping) : 0.0;
+    meanPenetration_ = overlapping > 0 ? sum / overlapping : 0.0;
     pairs_ = touchingPairs(contacts);
     top_ = -std::numeric_limits<double>::infinity();
     lowest_ = -top_;

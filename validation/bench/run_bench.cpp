@@ -107,8 +107,7 @@ class BenchInProgress {
 
   private:
     void prepare() {
-        for (std::size_t i = 0; i < work_.size(); ++i)
-            bench_.cases.push_back(caseOf(work_[i].planned, static_cast<std::int64_t>(i)));
+        for (std::size_t i = 0; i < work_.size(); ++i) bench_.cases.push_back(caseOf(work_[i].planned, i));
         bench_.settings = settings();
         header_ = header();
         if (options_.resume) takeStored();
@@ -242,7 +241,7 @@ std::string benchId(const PlannedBench& p) {
     Fnv1a hash;
     for (const std::string& word : {p.part, p.name, p.engine, p.operation, p.parameters}) hash.text(word);
     hash.number(p.size);
-    hash.word(static_cast<std::uint64_t>(p.threads));
+    hash.word(p.threads);
     return hash.hex();
 }
 

@@ -40,9 +40,9 @@ class WorkMeter {
     void look(const adapter::World& world, std::size_t bodies,
               const std::vector<adapter::ContactPoint>& contacts) {
         double asleep = 0.0;
-        for (std::size_t i = 0; i < bodies; ++i) asleep += world.isAsleep(static_cast<int>(i)) ? 1.0 : 0.0;
+        for (std::size_t i = 0; i < bodies; ++i) asleep += world.isAsleep(i) ? 1.0 : 0.0;
         sums_["asleep"].add(asleep);
-        sums_["contacts"].add(static_cast<double>(contacts.size()));
+        sums_["contacts"].add(contacts.size());
         sums_["touching_pairs"].add(touchingPairs(contacts));
     }
     void write(BenchRepetition& done) const {
@@ -59,7 +59,7 @@ class WorkMeter {
         }
     };
     void add(const char* name, std::int64_t value) {
-        if (value >= 0) sums_[name].add(static_cast<double>(value));
+        if (value >= 0) sums_[name].add(value);
     }
     std::map<std::string, Mean> sums_;
     std::map<std::string, std::vector<double>> phases_;
@@ -117,7 +117,7 @@ class SceneCase final : public BenchCase {
         const ClockSamples& times = watch.samples();
         done.wall = median(times.wall);
         done.cpu = median(times.cpu);
-        done.samples = static_cast<std::int64_t>(times.wall.size());
+        done.samples = times.wall.size();
         watch.writeAllocations(done);
         work.write(done);
         done.quality = quality.rows();

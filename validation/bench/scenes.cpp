@@ -35,9 +35,8 @@ bool couldRun(const EngineDescription& engine, const scenario::Scenario& scenari
 }
 
 double movingBodies(const scenario::Scenario& scenario) {
-    return static_cast<double>(
-        std::count_if(scenario.bodies.begin(), scenario.bodies.end(),
-                      [](const scenario::Body& body) { return body.type == scenario::BodyType::Dynamic; }));
+    return std::count_if(scenario.bodies.begin(), scenario.bodies.end(),
+                         [](const scenario::Body& body) { return body.type == scenario::BodyType::Dynamic; });
 }
 
 /// The same physics is the same work, whatever else is said of it.

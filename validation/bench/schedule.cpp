@@ -138,7 +138,7 @@ int needed(const BenchCase& c, const BenchTarget& target) {
     const auto interval = medianInterval(times);
     if (!interval || isConverged(c, target)) return target.least;
     const double excess = (interval->high - interval->low) / (target.width * median(times));
-    const double count = static_cast<double>(times.size()) * excess * excess;
+    const double count = times.size() * excess * excess;
     return static_cast<int>(std::clamp(count, static_cast<double>(target.least), double(target.most)));
 }
 
@@ -153,7 +153,7 @@ BenchForecast forecast(const Bench& bench, const BenchTarget& target) {
             ++done;
         }
     if (done == 0) return {};
-    const double usual = spent / static_cast<double>(done);
+    const double usual = spent / done;
     for (const Group& group : groupsOf(bench)) {
         int rounds = 0;
         for (const std::size_t i : group) rounds = std::max(rounds, needed(bench.cases[i], target));
@@ -164,15 +164,14 @@ BenchForecast forecast(const Bench& bench, const BenchTarget& target) {
                 std::max<std::int64_t>(0, rounds + 1 - static_cast<std::int64_t>(c.repetitions.size()));
             double own = 0.0;
             for (const BenchRepetition& r : c.repetitions) own += r.processSeconds;
-            const double each =
-                c.repetitions.empty() ? usual : own / static_cast<double>(c.repetitions.size());
+            const double each = c.repetitions.empty() ? usual : own / c.repetitions.size();
             left += missing;
-            coming += static_cast<double>(missing) * each;
+            coming += missing * each;
         }
     }
     if (spent + coming > target.budget && coming > 0.0) {
         const double share = std::max(0.0, target.budget - spent) / coming;
-        left = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(left)));
+        left = static_cast<std::int64_t>(std::ceil(share * left));
         coming *= share;
     }
     return {left, coming};

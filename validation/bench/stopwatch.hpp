@@ -36,7 +36,7 @@ class Stopwatch {
     static double now(clockid_t clock) {
         timespec t{};
         clock_gettime(clock, &t);
-        return static_cast<double>(t.tv_sec) + 1e-9 * t.tv_nsec;
+        return t.tv_sec + 1e-9 * t.tv_nsec;
     }
     ClockSamples samples_;
 };

@@ -52,7 +52,7 @@ void summariseAlone(BenchCase& c, const BenchTarget& target) {
     s.reason = objection(c);
     s.valid = s.reason.empty();
     const auto wall = timesOf(c, "wall"), cpu = timesOf(c, "cpu");
-    s.repetitions = static_cast<std::int64_t>(wall.size());
+    s.repetitions = wall.size();
     if (wall.empty()) return;
     s.wall = median(wall);
     s.cpu = median(cpu);

@@ -91,7 +91,7 @@ std::string wrapped(const std::string& text, std::size_t width, std::size_t inde
 std::string tableText(const Row& head, const std::vector<Row>& rows) {
     std::vector<Row> cells;
     for (const Row& row : rows)
-        cells.emplace_back(row.begin(), row.begin() + static_cast<long>(std::min(row.size(), head.size())));
+        cells.emplace_back(row.begin(), row.begin() + std::min(row.size(), head.size()));
     const auto widths = widthsOf(head, cells);
     std::string text = headText(head, widths);
     for (std::size_t i = 0; i < rows.size(); ++i) {

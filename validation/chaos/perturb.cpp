@@ -45,7 +45,7 @@ Vec3 centerOf(const Scenario& s, const std::vector<int>& group, int root) {
     Vec3 sum;
     double mass = 0.0;
     for (std::size_t i = 0; i < group.size(); ++i) {
-        if (group[i] != root || !isDynamicBody(s, static_cast<int>(i))) continue;
+        if (group[i] != root || !isDynamicBody(s, i)) continue;
         const Body& b = s.bodies[i];
         sum += b.massProperties.mass * (b.pose * b.massProperties.centerOfMass);
         mass += b.massProperties.mass;
@@ -106,7 +106,7 @@ void moveGroup(Scenario& s, const std::vector<int>& group, int root, const Freed
     const double angle = norm(turn);
     const Quat Q = angle > 0.0 ? fromAxisAngle(turn / angle, angle) : Quat{};
     for (std::size_t i = 0; i < group.size(); ++i) {
-        if (group[i] != root || !isDynamicBody(s, static_cast<int>(i))) continue;
+        if (group[i] != root || !isDynamicBody(s, i)) continue;
         Body& b = s.bodies[i];
         b.pose = {f.pivot + rotate(Q, b.pose.position - f.pivot) + shift, Q * b.pose.orientation};
         b.angularVelocity = rotate(Q, b.angularVelocity) + spin;

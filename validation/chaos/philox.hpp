@@ -28,7 +28,7 @@ constexpr PhiloxBlock philox(PhiloxBlock counter, std::array<std::uint32_t, 2> k
 
 /// Uniform in (-1, 1), symmetric about 0, never 0.
 constexpr double philoxUniform(std::uint32_t word) {
-    return (static_cast<double>(word) + 0.5) / 2147483648.0 - 1.0;
+    return (word + 0.5) / 2147483648.0 - 1.0;
 }
 
 }  // namespace rigor::validation

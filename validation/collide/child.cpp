@@ -36,7 +36,7 @@ CollideAnswer fromEngine(const CollisionAnswer& found) {
     answer.signedDistance = found.signedDistance;
     answer.witnessA = found.witnessA;
     answer.witnessB = found.witnessB;
-    answer.contacts = static_cast<int>(found.contacts.size());
+    answer.contacts = found.contacts.size();
     answer.normal = directionBetween(found);
     if (found.contacts.empty()) return answer;
     const ContactPoint* deepest = &found.contacts.front();

@@ -44,9 +44,7 @@ class Maker {
     }
 
   private:
-    std::size_t below(std::size_t n) {
-        return std::min(n - 1, static_cast<std::size_t>(random_.unit() * static_cast<double>(n)));
-    }
+    std::size_t below(std::size_t n) { return std::min(n - 1, static_cast<std::size_t>(random_.unit() * n)); }
     double length() { return scale_ * random_.between(0.3, 1.0); }
     Vec3 direction() {
         const double z = dimension_ == 2 ? 0.0 : random_.between(-1, 1), a = kTwoPi * random_.unit();
@@ -78,8 +76,7 @@ class Maker {
         try {
             ConvexHull hull{dimension_ == 2 ? convexHull2d(points) : convexHull3d(points).vertices};
             Vec3 middle;  // inside, where the others have their origin too
-            for (const Vec3& v : hull.vertices)
-                middle = middle + v / static_cast<double>(hull.vertices.size());
+            for (const Vec3& v : hull.vertices) middle = middle + v / hull.vertices.size();
             for (Vec3& v : hull.vertices) v = v - middle;
             return hull;
         } catch (const std::invalid_argument&) {  // points nearly in a plane or on a line
@@ -126,8 +123,8 @@ class Maker {
     /// Quarter turns of each other and little more, so that faces and edges are parallel or nearly so.
     void parallel() {
         const double quarter = std::numbers::pi / 2;
-        Quat turn = fromAxisAngle({0, 0, 1}, quarter * static_cast<double>(below(4)));
-        if (dimension_ == 3) turn = fromAxisAngle({1, 0, 0}, quarter * static_cast<double>(below(4))) * turn;
+        Quat turn = fromAxisAngle({0, 0, 1}, quarter * below(4));
+        if (dimension_ == 3) turn = fromAxisAngle({1, 0, 0}, quarter * below(4)) * turn;
         const double tilts[] = {0.0, 0.0, 1e-12, 1e-9, 1e-6, 1e-3};
         const Vec3 axis = dimension_ == 2 ? Vec3{0, 0, 1} : direction();
         Xb_.orientation = Xa_.orientation * fromAxisAngle(axis, tilts[below(6)]) * turn;

@@ -59,7 +59,7 @@ class QueryRunner {
         json questions = json::array();
         for (const CollideCase& c : run_.cases) questions.push_back(c.query.text);
         writeJsonFile(questions_, questions);
-        total_ = static_cast<std::int64_t>(run_.cases.size() * run_.specs.size());
+        total_ = run_.cases.size() * run_.specs.size();
     }
 
     bool runAll(const std::atomic<bool>& interrupted) {

@@ -138,7 +138,7 @@ void summariseTimes(const LogRatios& ratios, SpecChange& spec) {
     if (!ratios.mean.empty()) spec.meanRatio = std::exp(median(ratios.mean));
     if (!ratios.first.empty()) spec.firstRatio = std::exp(median(ratios.first));
     const std::vector<double>& logRatios = ratios.median;
-    spec.timed = static_cast<int>(logRatios.size());
+    spec.timed = logRatios.size();
     if (logRatios.empty()) return;
     spec.timeRatio = std::exp(median(logRatios));
     if (const auto interval = medianInterval(logRatios))
@@ -220,8 +220,8 @@ RunComparison compareRuns(const std::vector<Run>& before, const std::vector<Run>
                           const CompareOptions& options) {
     RunComparison all;
     all.pairBy = options.pairBy;
-    all.runsBefore = static_cast<int>(before.size());
-    all.runsAfter = static_cast<int>(after.size());
+    all.runsBefore = before.size();
+    all.runsAfter = after.size();
     compareEnvironments(before.front(), after.front(), all);
     all.changedScenarios = changedScenarios(before.front(), after.front());
     const auto pairs = pairCases(before.front(), after.front(), options.pairBy);

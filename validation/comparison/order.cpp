@@ -22,14 +22,14 @@ DescendingPoints keepDescending(std::vector<RefinementPoint> refinement, double 
               [](const RefinementPoint& a, const RefinementPoint& b) { return a.dt < b.dt; });
     DescendingPoints kept;
     const auto isNoise = [&](const RefinementPoint& p) { return p.error <= roundOff; };
-    kept.roundOff = static_cast<int>(std::count_if(refinement.begin(), refinement.end(), isNoise));
+    kept.roundOff = std::count_if(refinement.begin(), refinement.end(), isNoise);
     std::erase_if(refinement, isNoise);
     // The least error ends the descent; what lies below it in dt has left the power law.
     const auto least = std::min_element(
         refinement.begin(), refinement.end(),
         [](const RefinementPoint& a, const RefinementPoint& b) { return a.error < b.error; });
     if (refinement.end() - least >= 3) {
-        kept.flat = static_cast<int>(least - refinement.begin());
+        kept.flat = least - refinement.begin();
         refinement.erase(refinement.begin(), least);
     }
     kept.points = std::move(refinement);
@@ -52,8 +52,8 @@ std::optional<ObservedOrder> observedOrder(std::vector<RefinementPoint> refineme
     if (n < 2) return std::nullopt;
     double meanX = 0.0, meanY = 0.0;
     for (const auto& p : kept.points) {
-        meanX += std::log(p.dt) / static_cast<double>(n);
-        meanY += std::log(p.error) / static_cast<double>(n);
+        meanX += std::log(p.dt) / n;
+        meanY += std::log(p.error) / n;
     }
     double sxx = 0.0, sxy = 0.0;
     for (const auto& p : kept.points) {
@@ -65,7 +65,7 @@ std::optional<ObservedOrder> observedOrder(std::vector<RefinementPoint> refineme
 
     ObservedOrder fit;
     fit.order = sxy / sxx;
-    fit.points = static_cast<int>(n);
+    fit.points = n;
     fit.finest = kept.points.front().dt;
     fit.coarsest = kept.points.back().dt;
     fit.note = noteOf(kept);

@@ -32,7 +32,7 @@ double tieSum(std::vector<double> all) {
     for (std::size_t i = 0; i < all.size();) {
         std::size_t j = i;
         while (j < all.size() && all[j] <= all[i]) ++j;
-        const double t = static_cast<double>(j - i);
+        const double t = j - i;
         sum += t * t * t - t;
         i = j;
     }
@@ -50,7 +50,7 @@ double shareUpTo(std::size_t n, std::size_t m, std::size_t u) {
     for (std::size_t j = 1; j <= m; ++j)
         for (std::size_t i = 1; i <= n; ++i)
             for (std::size_t k = most; k >= j; --k) rows[i][k] += rows[i - 1][k - j];
-    return std::accumulate(rows[n].begin(), rows[n].begin() + static_cast<std::ptrdiff_t>(u) + 1, 0.0) /
+    return std::accumulate(rows[n].begin(), rows[n].begin() + u + 1, 0.0) /
            std::accumulate(rows[n].begin(), rows[n].end(), 0.0);
 }
 
@@ -58,7 +58,7 @@ double shareUpTo(std::size_t n, std::size_t m, std::size_t u) {
 
 double mannWhitney(const std::vector<double>& one, const std::vector<double>& other) {
     if (one.empty() || other.empty()) return 1.0;
-    const double n = static_cast<double>(one.size()), m = static_cast<double>(other.size());
+    const double n = one.size(), m = other.size();
     const double u = largerPairs(one, other), smaller = std::min(u, n * m - u);
     std::vector<double> all = one;
     all.insert(all.end(), other.begin(), other.end());

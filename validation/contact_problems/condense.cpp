@@ -20,7 +20,7 @@ namespace {
 using adapter::BadInput;
 
 std::size_t place(int i) {
-    return static_cast<std::size_t>(i);
+    return i;
 }
 
 using Lu = Eigen::PartialPivLU<Eigen::MatrixXd>;
@@ -81,7 +81,7 @@ class Dynamics {
             }
             group_[i] = groupOfRoot[r];
             within_[i] = members_[group_[i]].size();
-            members_[group_[i]].push_back(static_cast<int>(i));
+            members_[group_[i]].push_back(i);
         }
     }
     void factor(const std::vector<Triplet>& A) {
@@ -90,9 +90,7 @@ class Dynamics {
             const auto size = static_cast<Eigen::Index>(group.size());
             blocks.emplace_back(Eigen::MatrixXd::Zero(size, size));
         }
-        for (const Triplet& e : A)
-            blocks[groupOf(e.row)](static_cast<Eigen::Index>(within(e.row)),
-                                   static_cast<Eigen::Index>(within(e.column))) += e.value;
+        for (const Triplet& e : A) blocks[groupOf(e.row)](within(e.row), within(e.column)) += e.value;
         for (std::size_t g = 0; g < blocks.size(); ++g) {
             lu_.emplace_back(std::move(blocks[g]));
             if ((lu_.back().matrixLU().diagonal().array().abs() > 0.0).all()) continue;
@@ -220,8 +218,7 @@ std::vector<double> relativeVelocities(const ContactProblem& problem, const std:
     std::vector<double> u = problem.q;
     const std::size_t n = u.size();
     for (std::size_t i = 0; i < n; ++i)
-        u[i] += std::inner_product(r.begin(), r.end(), problem.W.begin() + static_cast<std::ptrdiff_t>(i * n),
-                                   0.0);
+        u[i] += std::inner_product(r.begin(), r.end(), problem.W.begin() + (i * n), 0.0);
     return u;
 }
 

@@ -28,7 +28,7 @@ ExportSummary exportHere(const ExportRequest& request, const std::filesystem::pa
     ExportSummary summary;
     summary.contacts = exported.problem.contacts();
     summary.bodies = exported.problem.f.size() / (s.dimension == 3 ? 6 : 3);
-    summary.time = static_cast<double>(request.step) * request.dt;
+    summary.time = request.step * request.dt;
     if (!exported.storedR.empty())
         summary.storedResidual = contactResidual(exported.problem, exported.storedR).relative;
     exported.description = "step " + std::to_string(request.step) +

@@ -18,7 +18,7 @@ using namespace scenario;
 using adapter::Unsupported;
 
 std::size_t placeOf(int i) {
-    return static_cast<std::size_t>(i);
+    return i;
 }
 double component(const Vec3& v, int i) {
     return i == 0 ? v.x : i == 1 ? v.y : v.z;
@@ -52,7 +52,7 @@ class StepExporter {
 
     ExportedProblem make() {
         for (std::size_t i = 0; i < s_.bodies.size(); ++i)
-            if (first_[i] != kNone) addBody(static_cast<int>(i));
+            if (first_[i] != kNone) addBody(i);
         for (const Joint& joint : s_.joints) addJoint(joint);
         bool hasImpulses = true;
         for (const ContactPoint& contact : step_.contacts) {
@@ -61,12 +61,11 @@ class StepExporter {
             hasImpulses = hasImpulses && contact.hasImpulse;
         }
         if (p().mu.empty()) throw adapter::BadInput("the step has no contacts to export");
-        const int rows = dofs_ * bodies_, columns = static_cast<int>(p().w.size());
+        const int rows = dofs_ * bodies_, columns = p().w.size();
         p().dimension = s_.dimension;
         p().M = fromTriplets(rows, rows, mass_);
         p().H = fromTriplets(rows, columns, direction_);
-        if (!problem_.b.empty())
-            problem_.G = fromTriplets(rows, static_cast<int>(problem_.b.size()), bilateral_);
+        if (!problem_.b.empty()) problem_.G = fromTriplets(rows, problem_.b.size(), bilateral_);
         problem_.isGlobal = true;
         if (hasImpulses) problem_.storedR = impulses_;
         storeVelocities();
@@ -130,7 +129,7 @@ class StepExporter {
     }
     void addJoint(const Joint& joint) {
         for (const JointRow& row : jointRows(s_, joint, step_.before)) {
-            const int column = static_cast<int>(problem_.b.size());
+            const int column = problem_.b.size();
             addColumn(bilateral_, joint.bodyA, column, -row.linear, row.armA, -row.angular);
             addColumn(bilateral_, joint.bodyB, column, row.linear, row.armB, row.angular);
             problem_.b.push_back(carried(joint.bodyB, row.linear, row.armB, row.angular) -
@@ -148,7 +147,7 @@ class StepExporter {
         const Vec3 impulse = contact.normalImpulse * contact.normal + contact.frictionImpulse;
         for (int k = 0; k < s_.dimension; ++k) {
             const Vec3 d = k == 0 ? contact.normal : tangents[placeOf(k - 1)];
-            const int column = static_cast<int>(p().w.size());
+            const int column = p().w.size();
             addColumn(direction_, contact.bodyA, column, -d, point.armA());
             addColumn(direction_, contact.bodyB, column, d, point.armB());
             p().w.push_back(carried(contact.bodyB, d, point.armB()) -

@@ -62,7 +62,7 @@ SparseMatrix readMatrix(const Hdf5File& file, const std::string& group) {
         if (p.size() != static_cast<std::size_t>(lines) + 1)
             refuse("p has " + std::to_string(p.size()) + " values, expected " + std::to_string(lines + 1));
         for (int line = 0; line < lines; ++line) {
-            const int from = p[line], to = p[static_cast<std::size_t>(line) + 1];
+            const int from = p[line], to = p[line + 1];
             if (from < 0 || to < from || static_cast<std::size_t>(to) > std::min(i.size(), x.size()))
                 refuse("p[" + std::to_string(line) + "] points outside of i and x");
             for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k)
@@ -90,8 +90,7 @@ void readLocal(const Hdf5File& file, ExportedProblem& exported) {
         throw BadInput(root + "/W is " + std::to_string(W.rows) + " x " + std::to_string(W.columns) +
                        ", expected the size of q, " + std::to_string(n));
     p.W.assign(n * n, 0.0);
-    for (const Triplet& e : toTriplets(W))
-        p.W[static_cast<std::size_t>(e.row) * n + static_cast<std::size_t>(e.column)] = e.value;
+    for (const Triplet& e : toTriplets(W)) p.W[e.row * n + e.column] = e.value;
 }
 
 void readGlobal(const Hdf5File& file, ExportedProblem& exported) {
@@ -133,7 +132,7 @@ void writeMatrix(Hdf5File& file, const std::string& group, const SparseMatrix& A
         for (const Triplet& e : entries) ++p[static_cast<std::size_t>(byRows ? e.row : e.column) + 1];
         for (std::size_t k = 1; k < p.size(); ++k) p[k] += p[k - 1];
     }
-    const int count = static_cast<int>(entries.size());
+    const int count = entries.size();
     const int nz = layout == SparseLayout::Triplets ? count : byRows ? -2 : -1;
     const auto number = [&](const char* name, int value) {
         file.writeIntegers(group + "/" + name, {value}, 1, "");
@@ -158,7 +157,7 @@ SparseMatrix sparse(const std::vector<double>& W, std::size_t n) {
     std::vector<Triplet> entries;
     for (std::size_t k = 0; k < W.size(); ++k)
         if (W[k] != 0.0) entries.push_back({static_cast<int>(k / n), static_cast<int>(k % n), W[k]});
-    return fromTriplets(static_cast<int>(n), static_cast<int>(n), std::move(entries));
+    return fromTriplets(n, n, std::move(entries));
 }
 
 }  // namespace

@@ -52,8 +52,7 @@ ExportedProblem fromJson(const json& j) {
             throw adapter::BadInput("/W/n: found " + std::to_string(W.rows) + " x " +
                                     std::to_string(W.columns) + ", expected " + std::to_string(n));
         p.W.assign(n * n, 0.0);
-        for (const Triplet& e : toTriplets(W))
-            p.W[static_cast<std::size_t>(e.row) * n + static_cast<std::size_t>(e.column)] = e.value;
+        for (const Triplet& e : toTriplets(W)) p.W[e.row * n + e.column] = e.value;
     }
     if (j.contains("solution")) {
         const json& s = j.at("solution");

@@ -21,7 +21,7 @@ Trajectory runOf(const Scenario& s, double dt, int body, const std::function<Bod
     run.dt = dt;
     run.bodyCount = s.bodies.size();
     for (std::size_t k = 0; k <= stepCount(s, dt); ++k) {
-        run.times.push_back(static_cast<double>(k) * dt);
+        run.times.push_back(k * dt);
         run.contacts.emplace_back();
         for (std::size_t i = 0; i < s.bodies.size(); ++i)
             run.states.push_back(

@@ -114,9 +114,9 @@ void readValues(const Node& root, FitTask& task, std::vector<adapter::EngineSpec
             if (std::find(task.metrics.begin(), task.metrics.end(), name) == task.metrics.end())
                 task.metrics.push_back(name);
         }
-    const int least = static_cast<int>(std::pow(3.0, static_cast<double>(task.parameters.size()))) + 1;
+    const int least = static_cast<int>(std::pow(3.0, task.parameters.size())) + 1;
     if (const auto n = root.find("budget")) task.budget = n->integer(least, 100000);
-    if (const auto n = root.find("seed")) task.seed = static_cast<std::uint64_t>(n->integer(0, 2147483647));
+    if (const auto n = root.find("seed")) task.seed = n->integer(0, 2147483647);
     if (const auto n = root.find("dt")) task.dt = n->number(1e-7, 1.0);
     if (const auto n = root.require("engines"); n && specs.empty())
         for (const std::string& text : n->texts()) specs.push_back(adapter::parseSpec(text));

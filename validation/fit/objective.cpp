@@ -197,8 +197,8 @@ bool Objective::evaluate(const adapter::EngineSpec& spec, bool train, const std:
             batch.queue(first, std::min(first + chunk, total));
         if (!pool.run(interrupted_, [](const std::string&) {})) return false;
         for (std::size_t k = 0; k < open.size(); ++k) {
-            const auto begin = batch.answers().begin() + static_cast<std::ptrdiff_t>(k * scenarios);
-            log_.add(spec.text(), part, open[k], {begin, begin + static_cast<std::ptrdiff_t>(scenarios)});
+            const auto begin = batch.answers().begin() + (k * scenarios);
+            log_.add(spec.text(), part, open[k], {begin, begin + scenarios});
         }
         std::error_code ignored;
         fs::remove_all(folder, ignored);

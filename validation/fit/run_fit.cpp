@@ -53,8 +53,8 @@ class Fitting {
         r.parameters = task_.parameters;
         r.seed = task_.seed;
         for (const std::string& name : task_.metrics) r.units.push_back(findMetric(name)->unit);
-        r.train = static_cast<int>(task_.train.size());
-        r.test = static_cast<int>(task_.test.size());
+        r.train = task_.train.size();
+        r.test = task_.test.size();
         r.baselines = baselines(task_);
         for (std::size_t k = 0; k < task_.specs.size(); ++k) {
             auto fitted = fitEngine(task_.specs[k], outcome.runFolders);
@@ -73,9 +73,7 @@ class Fitting {
         ran_ += cases;
         const double seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-        if (ran_ > 0)
-            progress_.etaSeconds =
-                seconds / static_cast<double>(ran_) * static_cast<double>(progress_.total - progress_.done);
+        if (ran_ > 0) progress_.etaSeconds = seconds / ran_ * (progress_.total - progress_.done);
         if (onProgress_) onProgress_(progress_);
     }
 
@@ -93,7 +91,7 @@ class Fitting {
         if (!search) return std::nullopt;
         EngineFit fit;
         fit.spec = spec.text();
-        fit.evaluations = static_cast<int>(search->all.size());
+        fit.evaluations = search->all.size();
         const FitPoint best = search->all[search->best].point;
         const auto intervals = minimiserIntervals(*search, task_.parameters, task_.summary, task_.seed);
         for (std::size_t i = 0; i < best.size(); ++i) fit.parameters.push_back({best[i], intervals[i]});
@@ -149,7 +147,7 @@ class Fitting {
         runCases(
             plan, options,
             [&](const Progress& p) {
-                advance(static_cast<int>(p.done - before));
+                advance(p.done - before);
                 before = p.done;
             },
             interrupted_);

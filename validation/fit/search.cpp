@@ -22,7 +22,7 @@ Interval meanInterval(const Losses& losses, std::uint64_t seed) {
     const auto mean = [&](const Picks& picks) {
         double sum = 0.0;
         for (const std::size_t i : picks[0]) sum += losses[i];
-        return std::vector<double>{sum / static_cast<double>(losses.size())};
+        return std::vector<double>{sum / losses.size()};
     };
     return bootstrap({losses.size()}, seed, kResamples, mean)[0];
 }
@@ -88,8 +88,7 @@ class Search {
   private:
     std::size_t dimension() const { return parameters_.size(); }
     int perAxis(double points) const {
-        return std::max(
-            3, static_cast<int>(std::floor(std::pow(points, 1.0 / static_cast<double>(dimension())) + 1e-9)));
+        return std::max(3, static_cast<int>(std::floor(std::pow(points, 1.0 / dimension()) + 1e-9)));
     }
     int left(double share) const {
         return static_cast<int>(share * budget_) - static_cast<int>(result_.all.size());
@@ -140,7 +139,7 @@ class Search {
     /// An even grid over where resampled recordings put the minimum, a step wider on every side.
     bool survey() {
         result_.resolution = step_;
-        if (left(1.0) < static_cast<int>(std::pow(3.0, static_cast<double>(dimension())))) return true;
+        if (left(1.0) < static_cast<int>(std::pow(3.0, dimension()))) return true;
         const auto where = minimiserIntervals(result_, parameters_, summary_, seed_);
         const int count = perAxis(left(1.0));
         std::vector<std::vector<double>> axes;
@@ -169,7 +168,7 @@ class Search {
 
 double summarise(const Losses& losses, Summary summary) {
     if (summary == Summary::Median) return median(losses);
-    return std::accumulate(losses.begin(), losses.end(), 0.0) / static_cast<double>(losses.size());
+    return std::accumulate(losses.begin(), losses.end(), 0.0) / losses.size();
 }
 
 ScoreSummary scoreOf(const Losses& losses, std::uint64_t seed) {
@@ -179,9 +178,8 @@ ScoreSummary scoreOf(const Losses& losses, std::uint64_t seed) {
     s.meanInterval = meanInterval(losses, seed);
     s.medianInterval = medianInterval(losses).value_or(Interval{
         *std::min_element(losses.begin(), losses.end()), *std::max_element(losses.begin(), losses.end())});
-    s.runs = static_cast<int>(losses.size());
-    s.broken = static_cast<int>(
-        std::count_if(losses.begin(), losses.end(), [](double v) { return !std::isfinite(v); }));
+    s.runs = losses.size();
+    s.broken = std::count_if(losses.begin(), losses.end(), [](double v) { return !std::isfinite(v); });
     return s;
 }
 

@@ -73,7 +73,7 @@ bool CsvTable::has(const std::string& column) const {
 std::size_t CsvTable::index(const std::string& column) const {
     const auto it = std::find(columns_.begin(), columns_.end(), column);
     if (it == columns_.end()) throw std::invalid_argument("no column " + column);
-    return static_cast<std::size_t>(it - columns_.begin());
+    return it - columns_.begin();
 }
 
 const std::string& CsvTable::text(std::size_t row, const std::string& column) const {

@@ -95,8 +95,7 @@ Piece pieceOf(const Push& push, const Common& common, const fs::path& file) {
     if (piece.first == 0)
         throw LoadError({{"import.gap", file.string(), "", 0, "a hand that is never clear of the cube",
                           "2 mm between the two before the push"}});
-    piece.last = std::min(push.cube.size() - 1,
-                          push.stopped + static_cast<std::size_t>(std::lround(kCalm * push.rate)));
+    piece.last = std::min(push.cube.size() - 1, push.stopped + std::lround(kCalm * push.rate));
     double lowest = path[piece.first].z;
     for (std::size_t k = piece.first; k <= push.stopped; ++k) lowest = std::min(lowest, path[k].z);
     for (std::size_t k = piece.first; k <= piece.last; ++k)
@@ -111,9 +110,8 @@ ordered_json drive(const Piece& piece, double rate) {
     Vec3 before = rate * (piece.finger[1] - piece.finger[0]);
     for (std::size_t k = 1; k + 1 < piece.finger.size(); ++k) {
         const Vec3 velocity = rate * (piece.finger[k + 1] - piece.finger[k]);
-        events.push_back({{"time", static_cast<double>(k) / rate},
-                          {"body", "finger"},
-                          {"impulse", toJson(kFingerMass * (velocity - before))}});
+        events.push_back(
+            {{"time", k / rate}, {"body", "finger"}, {"impulse", toJson(kFingerMass * (velocity - before))}});
         before = velocity;
     }
     return events;
@@ -126,7 +124,7 @@ ordered_json recordedMotion(const Push& push, const Piece& piece) {
     const RecordedPose& start = push.cube[piece.first];
     for (std::size_t k = piece.first; k <= piece.last; ++k) {
         const RecordedPose& pose = push.cube[k];
-        times.push_back(static_cast<double>(k - piece.first) / push.rate);
+        times.push_back((k - piece.first) / push.rate);
         for (const double x : {pose.position.x, pose.position.y, pose.position.z - start.position.z + kHalf})
             positions.push_back(x);
         for (const auto& x : toJson(pose.orientation * conjugate(start.orientation)))
@@ -162,7 +160,7 @@ std::string rounded(double value, int digits) {
 
 std::string scenarioOf(const std::string& name, bool train, const Push& push, const Piece& piece,
                        const Common& common) {
-    const double duration = static_cast<double>(piece.last - piece.first) / push.rate;
+    const double duration = (piece.last - piece.first) / push.rate;
     return scenarioText(
         {{"rigor", 1},
          {"name", name},

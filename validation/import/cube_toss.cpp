@@ -83,7 +83,7 @@ ordered_json recordedMotion(const Recording& recording, std::size_t first) {
     ordered_json times = ordered_json::array(), positions = times, orientations = times;
     for (std::size_t k = first; k < recording.frames.size(); ++k) {
         const RecordedFrame& f = recording.frames[k];
-        times.push_back(static_cast<double>(k - first) / recording.rate);
+        times.push_back((k - first) / recording.rate);
         for (const auto& x : toJson(f.position)) positions.push_back(x);
         for (const auto& x : toJson(f.orientation)) orientations.push_back(x);
     }

@@ -54,11 +54,10 @@ std::string numberedName(const std::string& prefix, int number, std::size_t digi
 
 double steadyRate(const CsvTable& table) {
     const std::size_t last = table.size() - 1;
-    const double first = table.number(0, "t"),
-                 rate = static_cast<double>(last) / (table.number(last, "t") - first);
+    const double first = table.number(0, "t"), rate = last / (table.number(last, "t") - first);
     for (std::size_t row = 0; row <= last; ++row) {
         const double place = (table.number(row, "t") - first) * rate;
-        if (!(std::abs(place - static_cast<double>(row)) <= kTimeTolerance))
+        if (!(std::abs(place - row) <= kTimeTolerance))
             throw LoadError({table.problem("import.time", table.line(row), "t = " + table.text(row, "t"),
                                            "times that rise by the same step from line to line")});
     }

@@ -191,8 +191,7 @@ std::vector<Chosen> chooseRecordings(const std::vector<int>& ids, const ImportRe
         // Spread evenly: neighbours were recorded in one session.
         const double share = request.train.empty() ? 0.5 : readShare(request.train);
         for (std::size_t k = 0; k < selected.size(); ++k)
-            if (std::floor(static_cast<double>(k + 1) * share) > std::floor(static_cast<double>(k) * share))
-                train.insert(selected[k]);
+            if (std::floor((k + 1) * share) > std::floor(k * share)) train.insert(selected[k]);
     }
     std::vector<Chosen> chosen;
     for (const int id : selected) chosen.push_back({id, train.count(id) > 0});

@@ -126,7 +126,7 @@ Swing readSwing(const Span& span, const ArmModel& model, bool fitted) {
     Swing swing;
     const double start = table.number(begin, "t");
     for (std::size_t row = begin; row < end; ++row) {
-        const double t = static_cast<double>(row - begin) / kRate;
+        const double t = (row - begin) / kRate;
         if (!(std::abs(table.number(row, "t") - start - t) <= kSampleTimeTolerance))
             throw LoadError({table.problem("import.time", table.line(row), "t = " + table.text(row, "t"),
                                            "times that rise by 0.001 s from line to line")});
@@ -322,8 +322,7 @@ Imported importMultiArmPendulum(const ImportRequest& request) {
         for (std::size_t i = 0; i < spans.size(); ++i) ids.push_back(static_cast<int>(i) + 1);
         ImportRequest all = request;
         all.select = "all";
-        for (const Chosen& c : chooseRecordings(ids, all))
-            chosen.emplace_back(spans[static_cast<std::size_t>(c.id) - 1], c.train);
+        for (const Chosen& c : chooseRecordings(ids, all)) chosen.emplace_back(spans[c.id - 1], c.train);
     } else {
         std::vector<int> ids;
         for (const auto& [id, file] : files) ids.push_back(id);

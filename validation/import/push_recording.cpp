@@ -22,13 +22,13 @@ constexpr std::ptrdiff_t kReach = 3;              // frames to either side of a 
 constexpr std::size_t kSlide = 2 * kReach + 1;
 
 std::size_t framesIn(double seconds, double rate) {
-    return static_cast<std::size_t>(std::lround(seconds * rate));
+    return std::lround(seconds * rate);
 }
 
 double meanX(const std::vector<RecordedPose>& poses, std::size_t first, std::size_t count) {
     double sum = 0.0;
     for (std::size_t k = first; k < first + count; ++k) sum += poses[k].position.x;
-    return sum / static_cast<double>(count);
+    return sum / count;
 }
 
 std::size_t fastestFrame(const std::vector<RecordedPose>& cube) {
@@ -71,8 +71,8 @@ Parabola fitParabola(Value value) {
     double mean = 0.0, bent = 0.0;
     for (std::ptrdiff_t i = -kReach; i <= kReach; ++i) {
         const double y = value(i);
-        mean += y / static_cast<double>(kSlide);
-        bent += (static_cast<double>(i * i) - kMeanSquare) * y / kFourth;
+        mean += y / kSlide;
+        bent += ((i * i) - kMeanSquare) * y / kFourth;
     }
     return {mean - kMeanSquare * bent, 2.0 * bent};
 }

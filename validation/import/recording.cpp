@@ -34,11 +34,11 @@ Line fitLine(std::size_t count, double dt, Value y) {
     const auto n = static_cast<double>(count);
     double meanT = 0.0, meanY = 0.0, tt = 0.0, ty = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
-        meanT += static_cast<double>(k) * dt / n;
+        meanT += k * dt / n;
         meanY += y(k) / n;
     }
     for (std::size_t k = 0; k < count; ++k) {
-        const double t = static_cast<double>(k) * dt - meanT;
+        const double t = k * dt - meanT;
         tt += t * t;
         ty += t * (y(k) - meanY);
     }
@@ -62,9 +62,8 @@ Vec3 turnBetween(const Quat& a, const Quat& b) {
 
 std::size_t firstFrameBelow(const Recording& recording, double height) {
     const auto& f = recording.frames;
-    return static_cast<std::size_t>(
-        std::find_if(f.begin(), f.end(), [&](const RecordedFrame& x) { return x.position.z <= height; }) -
-        f.begin());
+    return std::find_if(f.begin(), f.end(), [&](const RecordedFrame& x) { return x.position.z <= height; }) -
+           f.begin();
 }
 
 std::size_t firstContact(const Recording& recording, double halfWidth) {
@@ -74,7 +73,7 @@ std::size_t firstContact(const Recording& recording, double halfWidth) {
         return x.position.z <=
                halfWidth * (std::abs(axes(2, 0)) + std::abs(axes(2, 1)) + std::abs(axes(2, 2)));
     };
-    return static_cast<std::size_t>(std::find_if(f.begin(), f.end(), touches) - f.begin());
+    return std::find_if(f.begin(), f.end(), touches) - f.begin();
 }
 
 std::size_t flightFrames(const Recording& recording, double halfWidth, double gravity) {
@@ -92,13 +91,13 @@ StartState startByRule(const Recording& recording, double halfWidth, double grav
     const auto& f = recording.frames;
     const std::size_t i = startFrame(recording, halfWidth);
     if (i < kLeastFlight) return asRecorded(recording, i);
-    const double dt = 1.0 / recording.rate, chord = static_cast<double>(i - 1) * dt;
+    const double dt = 1.0 / recording.rate, chord = (i - 1) * dt;
     const Line z = fitLine(i, dt, [&](std::size_t k) {
-        const double t = static_cast<double>(k) * dt;
+        const double t = k * dt;
         return f[k].position.z + 0.5 * gravity * t * t;
     });
     const Vec3 moved = f[i - 1].position - f[0].position;
-    const Vec3 spin = turnBetween(f[0].orientation, f[i].orientation) / (static_cast<double>(i) * dt);
+    const Vec3 spin = turnBetween(f[0].orientation, f[i].orientation) / (i * dt);
     return {i,
             f[i].position,
             {moved.x / chord, moved.y / chord, z.slope - gravity * chord},
@@ -112,12 +111,12 @@ StartState startByFlight(const Recording& recording, double halfWidth, double gr
     const std::size_t i = startFrame(recording, halfWidth);
     const std::size_t count = flightFrames(recording, halfWidth, gravity);
     if (count < kLeastFlight) return asRecorded(recording, i);
-    const double dt = 1.0 / recording.rate, t = static_cast<double>(i) * dt;
+    const double dt = 1.0 / recording.rate, t = i * dt;
     const auto line = [&](auto&& component) { return fitLine(count, dt, component); };
     const Line x = line([&](std::size_t k) { return f[k].position.x; });
     const Line y = line([&](std::size_t k) { return f[k].position.y; });
     const Line z = line([&](std::size_t k) {
-        const double s = static_cast<double>(k) * dt;
+        const double s = k * dt;
         return f[k].position.z + 0.5 * gravity * s * s;
     });
     std::vector<Vec3> turns;

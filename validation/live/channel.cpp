@@ -30,7 +30,7 @@ bool Channel::send(const Packet& packet) {
     for (std::size_t sent = 0; sent < all.size();) {
         const ssize_t n = ::send(file_, all.data() + sent, all.size() - sent, MSG_NOSIGNAL);
         if (n > 0)
-            sent += static_cast<std::size_t>(n);
+            sent += n;
         else if (errno != EINTR)
             return false;
     }
@@ -42,13 +42,13 @@ Channel::Received Channel::read(char* bytes, std::size_t count, std::optional<Cl
         if (deadline) {
             const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(*deadline - Clock::now());
             pollfd waiting{file_, POLLIN, 0};
-            const int ready = poll(&waiting, 1, static_cast<int>(std::max<long>(0, left.count())));
+            const int ready = poll(&waiting, 1, std::max<long>(0, left.count()));
             if (ready == 0) return Received::Timeout;
             if (ready < 0 && errno == EINTR) continue;
         }
         const ssize_t n = recv(file_, bytes + got, count - got, 0);
         if (n > 0)
-            got += static_cast<std::size_t>(n);
+            got += n;
         else if (n == 0 || errno != EINTR)
             return Received::End;
     }

@@ -200,7 +200,7 @@ Packet instanceFrame(InstanceWorld& instance, bool stages) {
     Packet packet;
     json& header = packet.header;
     header["step"] = instance.steps();
-    header["time"] = static_cast<double>(instance.steps()) * instance.dt();
+    header["time"] = instance.steps() * instance.dt();
     header["state"] = instance.nonFinite().empty() ? "ready" : "non_finite";
     header["message"] = instance.nonFinite();
     addStates(packet, instance.states());
@@ -216,7 +216,7 @@ Packet instanceFrame(InstanceWorld& instance, bool stages) {
                           {"force", vector(pull->force)}};
     json broken = json::array();
     for (std::size_t j = 0; j < instance.scenario().joints.size(); ++j)
-        if (!instance.world().jointHolds(static_cast<int>(j))) broken.push_back(j);
+        if (!instance.world().jointHolds(j)) broken.push_back(j);
     header["broken_joints"] = broken;
     const adapter::StagedWorld* staged = instance.world().staged();
     header["stage"] = {{"in_step", instance.inStep()},

@@ -199,8 +199,7 @@ SceneNow InstanceWorld::now() {
     if (!nonFinite_.empty()) throw BadInput(nonFinite_);
     if (inStep()) throw BadInput("a step is under way: end it first");
     Moment moment{dt_, stepper_->steps(), stepper_->states(), &coordinates_, {}};
-    for (std::size_t j = 0; j < scenario_.joints.size(); ++j)
-        moment.holds.push_back(world_->jointHolds(static_cast<int>(j)));
+    for (std::size_t j = 0; j < scenario_.joints.size(); ++j) moment.holds.push_back(world_->jointHolds(j));
     return sceneNow(scenario_, moment);
 }
 

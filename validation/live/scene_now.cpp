@@ -47,7 +47,7 @@ class Rewriter {
 
     SceneNow run() {
         Scenario& s = out_.scenario;
-        for (std::size_t i = 0; i < s.bodies.size(); ++i) place(s.bodies[i], static_cast<int>(i));
+        for (std::size_t i = 0; i < s.bodies.size(); ++i) place(s.bodies[i], i);
         rewriteJoints();
         rewriteForces();
         rewriteEvents();
@@ -69,7 +69,7 @@ class Rewriter {
     }
 
   private:
-    double now() const { return static_cast<double>(moment_.steps) * moment_.dt; }
+    double now() const { return moment_.steps * moment_.dt; }
     void note(std::string text) { out_.notes.push_back(std::move(text)); }
 
     void place(Body& body, int index) {

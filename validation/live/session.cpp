@@ -173,7 +173,7 @@ std::string Session::frames(std::uint64_t after, double seconds) {
             packet.arrays.take(std::to_string(instance->plan.id) + "/", instance->frame().arrays);
             frame["instance"] = instance->plan.id;
             frame["step"] = instance->step();
-            frame["time"] = static_cast<double>(instance->step()) * instance->plan.dt;
+            frame["time"] = instance->step() * instance->plan.dt;
             frames.push_back(std::move(frame));
         }
         packet.header["frames"] = std::move(frames);

@@ -41,7 +41,7 @@ void writeNewFile(const fs::path& file, const std::string& text) {
     while (done < text.size()) {
         const ssize_t n = write(out, text.data() + done, text.size() - done);
         if (n <= 0 && errno != EINTR) break;
-        if (n > 0) done += static_cast<std::size_t>(n);
+        if (n > 0) done += n;
     }
     const bool closed = close(out) == 0;
     if (done < text.size() || !closed) {
@@ -93,7 +93,7 @@ json Session::command(const json& given) {
         else if (name == "save")
             answer = save(request);
         else if (name == "remove")
-            remove(static_cast<int>(wholeNumber(request, "instance", -1)));
+            remove(wholeNumber(request, "instance", -1));
         else
             throw CommandError("no command '" + name + "'");
     } catch (const json::exception& error) {
@@ -133,13 +133,13 @@ void Session::step(long by) {
     playing_ = false;
     double now = std::floor(clock_.target + 1e-9);
     if (by > 0) {
-        clock_.target = now + static_cast<double>(by);
+        clock_.target = now + by;
         return;
     }
     // Going back from a step that has begun leads to its start.
     const bool inStep = std::any_of(instances_.begin(), instances_.end(),
                                     [](const auto& instance) { return instance->inStep(); });
-    now = std::max(0.0, now + static_cast<double>(by) + (inStep ? 1.0 : 0.0));
+    now = std::max(0.0, now + by + (inStep ? 1.0 : 0.0));
     clock_.target = now;
     for (const auto& instance : instances_)
         if (instance->alive()) instance->requestStep(static_cast<std::size_t>(now));
@@ -255,7 +255,7 @@ StateReply Session::nowOf(int id) {
 }
 
 json Session::branch(const json& request) {
-    const int id = static_cast<int>(wholeNumber(request, "instance", -1));
+    const int id = wholeNumber(request, "instance", -1);
     const StateReply now = nowOf(id);
     InstancePlan plan;
     {
@@ -278,7 +278,7 @@ json Session::branch(const json& request) {
 }
 
 json Session::save(const json& request) {
-    const int id = static_cast<int>(wholeNumber(request, "instance", -1));
+    const int id = wholeNumber(request, "instance", -1);
     const StateReply now = nowOf(id);
     SeenScene seen{now.text, now.notes, {}, 0.0};
     std::string original, name;
@@ -287,7 +287,7 @@ json Session::save(const json& request) {
         const InstanceSlot* instance = find(id);
         if (instance == nullptr) throw CommandError("no such instance");
         seen.spec = instance->plan.spec;
-        seen.time = static_cast<double>(now.step) * instance->plan.dt;
+        seen.time = now.step * instance->plan.dt;
         original = instance->plan.original;
         name = opened_.scenario.name;
     }

@@ -30,7 +30,7 @@ Mat3 inverseOf(const Mat3& m) {
 }
 
 std::size_t place(int body) {
-    return static_cast<std::size_t>(body);
+    return body;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 using namespace scenario;
 
 bool anyContactPossible(const Scenario& scenario) {
-    const int count = static_cast<int>(scenario.bodies.size());
+    const int count = scenario.bodies.size();
     for (int a = 0; a < count; ++a)
         for (int b = a + 1; b < count; ++b)
             if (mayCollide(scenario, a, b)) return true;
@@ -63,7 +63,7 @@ std::vector<MetricValue> medianRow(std::vector<double> values) {
 /// Calls `look(contact, angle to the closed form's normal, time)` for every contact that has one.
 template <class Look>
 void overNormals(const MetricInput& input, Look&& look) {
-    const int bodies = static_cast<int>(input.scenario.bodies.size());
+    const int bodies = input.scenario.bodies.size();
     const std::size_t frames = std::min(input.trajectory.frames(), input.trajectory.contacts.size());
     for (std::size_t k = 0; k < frames; ++k)
         for (const auto& contact : input.trajectory.contacts[k]) {
@@ -99,7 +99,7 @@ std::vector<MetricValue> penetrationMax(const MetricInput& input) {
 
 std::vector<MetricValue> overlapMax(const MetricInput& input) {
     const auto& bodies = input.scenario.bodies;
-    const int count = static_cast<int>(bodies.size());
+    const int count = bodies.size();
     std::map<int, Worst> worst;
     if (input.trajectory.frames() < 2) return {};
     for (int a = 0; a < count; ++a)

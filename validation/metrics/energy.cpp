@@ -25,7 +25,7 @@ std::optional<std::vector<BodyState>> exactStates(const MetricInput& input, doub
         states[i] = {body.pose.position, body.pose.orientation, body.velocity, body.angularVelocity};
         if (body.type != BodyType::Dynamic) continue;
         if (std::find(known.begin(), known.end(), static_cast<int>(i)) == known.end()) return std::nullopt;
-        const PartialState exact = input.reference->exact(static_cast<int>(i), t);
+        const PartialState exact = input.reference->exact(i, t);
         if (!exact.position || !exact.orientation || !exact.velocity || !exact.angularVelocity)
             return std::nullopt;
         states[i] = {*exact.position, *exact.orientation, *exact.velocity, *exact.angularVelocity};
@@ -49,7 +49,7 @@ bool hasLossyForces(const Scenario& scenario) {
 }
 
 bool contactsAreLossless(const Scenario& scenario) {
-    const int count = static_cast<int>(scenario.bodies.size());
+    const int count = scenario.bodies.size();
     for (int a = 0; a < count; ++a)
         for (int b = a + 1; b < count; ++b) {
             if (!mayCollide(scenario, a, b)) continue;

@@ -62,7 +62,7 @@ std::vector<MetricValue> meanRows(const MetricInput& input, const ByBody& found)
         double sum = 0.0;
         for (const double v : values) sum += v;
         MetricValue row = worst.row(bodyName(input, body));
-        row.value = sum / static_cast<double>(values.size());
+        row.value = sum / values.size();
         rows.push_back(row);
     }
     return withWorst(std::move(rows));

@@ -56,7 +56,7 @@ std::optional<double> exactDepth(const MetricInput& input, const ContactPoint& c
 }  // namespace
 
 std::vector<MetricValue> initialOverlap(const MetricInput& input) {
-    const int bodies = static_cast<int>(input.scenario.bodies.size());
+    const int bodies = input.scenario.bodies.size();
     if (input.trajectory.contacts.empty()) return {};
     std::map<int, Worst> worst;
     for (const ContactPoint& contact : input.trajectory.contacts.front()) {

@@ -41,7 +41,7 @@ Errors errorsOf(const MetricInput& input, int body) {
 double meanOf(const std::vector<double>& values, int power) {
     double sum = 0.0;
     for (const double v : values) sum += power == 2 ? v * v : v;
-    return sum / static_cast<double>(values.size());
+    return sum / values.size();
 }
 
 /// One row per compared body that a recording knows; `value` adds its number and when it was met.

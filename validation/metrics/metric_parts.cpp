@@ -59,7 +59,7 @@ std::size_t validFrames(const MetricInput& input) {
     const auto& times = input.trajectory.times;
     if (!input.reference) return times.size();
     const double until = input.reference->validUntil();
-    return static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), until) - times.begin());
+    return std::upper_bound(times.begin(), times.end(), until) - times.begin();
 }
 
 double angleBetween(const scenario::Vec3& a, const scenario::Vec3& b) {
@@ -98,7 +98,7 @@ std::optional<double> errorAt(const MetricInput& input, StateError error, bool s
                               std::size_t frame) {
     const Trajectory& run = input.trajectory;
     if (!scheme) return error(run.state(frame, body), input.reference->exact(body, run.times[frame]));
-    const auto step = frame * static_cast<std::size_t>(run.stride);
+    const auto step = frame * run.stride;
     const auto ideal = input.reference->schemeExact(body, step, run.dt, input.scheme);
     return ideal ? error(run.state(frame, body), *ideal) : std::nullopt;
 }
@@ -124,7 +124,7 @@ std::vector<MetricValue> stateErrors(const MetricInput& input, StateError error,
         if (count == 0) continue;
         MetricValue row = worst.row(bodyName(input, body));
         if (over == Over::Rms) {
-            const double mean = std::sqrt(squares / static_cast<double>(count));
+            const double mean = std::sqrt(squares / count);
             row.value = std::isnan(mean) ? std::numeric_limits<double>::infinity() : mean;
         }
         rows.push_back(row);

@@ -28,7 +28,7 @@ bool isIsolated(const Scenario& scenario) {
     }
     for (const auto& joint : scenario.joints)
         if (!isDynamic(scenario, joint.bodyA) || !isDynamic(scenario, joint.bodyB)) return false;
-    const int count = static_cast<int>(scenario.bodies.size());
+    const int count = scenario.bodies.size();
     for (int a = 0; a < count; ++a)
         for (int b = 0; b < count; ++b)
             if (isDynamic(scenario, a) && !isDynamic(scenario, b) && mayCollide(scenario, a, b)) return false;

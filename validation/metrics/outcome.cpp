@@ -109,10 +109,10 @@ std::vector<MetricValue> spreadRadius(const MetricInput& input) {
         places.push_back(x - dot(up, x) * up);
         mean += places.back();
     });
-    mean = mean / static_cast<double>(places.size());
+    mean = mean / places.size();
     double sum = 0.0;
     for (const Vec3& x : places) sum += dot(x - mean, x - mean);
-    return {{"", std::sqrt(sum / static_cast<double>(places.size())), input.trajectory.times.back()}};
+    return {{"", std::sqrt(sum / places.size()), input.trajectory.times.back()}};
 }
 
 std::vector<MetricValue> settlingTime(const MetricInput& input) {

@@ -106,7 +106,7 @@ std::vector<MetricValue> restJitter(const MetricInput& input) {
             squares += dot(v, v);
         }
         Worst worst;
-        worst.add(std::sqrt(squares / static_cast<double>(run.frames() - first)), run.times.back());
+        worst.add(std::sqrt(squares / (run.frames() - first)), run.times.back());
         rows.push_back(worst.row(bodyName(input, body)));
     }
     return withWorst(std::move(rows));

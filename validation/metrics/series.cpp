@@ -63,7 +63,7 @@ void addContacts(const MetricInput& input, std::vector<Series>& result) {
     for (std::size_t k = 0; k + 1 < frames; ++k) {
         for (const auto& contact : input.trajectory.contacts[k])
             depth.values[k] = std::max(depth.values[k], contact.depth);
-        count.values[k] = static_cast<double>(input.trajectory.contacts[k].size());
+        count.values[k] = input.trajectory.contacts[k].size();
         any = any || !input.trajectory.contacts[k].empty();
     }
     if (!any) return;

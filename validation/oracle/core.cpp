@@ -54,7 +54,7 @@ std::vector<Face> findFaces(const std::vector<Vec>& v, Real size) {
                 for (std::size_t m = 0; m < v.size() && !sides.both(); ++m) {
                     const Real height = dot(unit, v[m] - v[i]);
                     sides.add(height, kOnPlane * size);
-                    if (std::abs(height) <= kOnPlane * size) on.push_back(static_cast<int>(m));
+                    if (std::abs(height) <= kOnPlane * size) on.push_back(m);
                 }
                 if (sides.both()) continue;
                 const auto known = std::find_if(faces.begin(), faces.end(),
@@ -97,7 +97,7 @@ void findFeatures(Core& core, int dimension) {
         core.edges = {{0, 1}};
     } else if (dimension == 2) {
         std::vector<int> all;
-        for (std::size_t i = 0; i < v.size(); ++i) all.push_back(static_cast<int>(i));
+        for (std::size_t i = 0; i < v.size(); ++i) all.push_back(i);
         core.edges = findEdges(v, all, {0, 0, 1}, size);
     } else {
         core.faces = findFaces(v, size);

@@ -50,8 +50,7 @@ std::vector<double> ofBody(const std::vector<double>& flat, std::size_t first, s
                            std::size_t each) {
     std::vector<double> own;
     for (std::size_t begin = first * each; begin < flat.size(); begin += stride * each)
-        own.insert(own.end(), flat.begin() + static_cast<std::ptrdiff_t>(begin),
-                   flat.begin() + static_cast<std::ptrdiff_t>(begin + each));
+        own.insert(own.end(), flat.begin() + begin, flat.begin() + (begin + each));
     return own;
 }
 
@@ -161,7 +160,7 @@ class MeasuredMotion : public Reference {
 
   private:
     static void requireStart(const Scenario& scenario, const Track& track) {
-        const Body& body = scenario.bodies[static_cast<std::size_t>(track.body)];
+        const Body& body = scenario.bodies[track.body];
         if (!track.positions.empty())
             require(norm(body.pose.position - track.positions[0]) <= kStartTolerance * sizeOf(body),
                     bodyTitle(scenario, track.body) + " starts at " +

@@ -31,7 +31,7 @@ std::string shown(Vec3 v, int dimension) {
 }
 
 std::string bodyTitle(const Scenario& scenario, int body) {
-    return "body '" + scenario.bodies[static_cast<std::size_t>(body)].name + "'";
+    return "body '" + scenario.bodies[body].name + "'";
 }
 
 // ------------------------------------------------------------------------------------------- parameters
@@ -78,9 +78,7 @@ int Parts::anyBody(const char* key, std::initializer_list<int> except) const {
 }
 
 int Parts::dynamicBody(const char* key, std::initializer_list<int> except) const {
-    const auto isDynamic = [&](int i) {
-        return scenario_.bodies[static_cast<std::size_t>(i)].type == BodyType::Dynamic;
-    };
+    const auto isDynamic = [&](int i) { return scenario_.bodies[i].type == BodyType::Dynamic; };
     if (const auto name = text(key)) {
         const int body = byName(key, *name);
         if (!isDynamic(body))
@@ -100,13 +98,13 @@ int Parts::dynamicBody(const char* key, std::initializer_list<int> except) const
 int Parts::support(const char* key, int partner) const {
     if (const auto name = text(key)) {
         const int body = byName(key, *name);
-        if (scenario_.bodies[static_cast<std::size_t>(body)].type == BodyType::Dynamic)
+        if (scenario_.bodies[body].type == BodyType::Dynamic)
             bad("parameter '" + std::string(key) + "': body '" + *name + "' is dynamic");
         return body;
     }
     int found = scenario::kNone;
     for (int i = 0; i < static_cast<int>(scenario_.bodies.size()); ++i) {
-        if (scenario_.bodies[static_cast<std::size_t>(i)].type == BodyType::Dynamic) continue;
+        if (scenario_.bodies[i].type == BodyType::Dynamic) continue;
         if (!scenario::mayCollide(scenario_, i, partner)) continue;
         if (found != scenario::kNone) bad("parameter '" + std::string(key) + "' is missing");
         found = i;
@@ -120,7 +118,7 @@ std::vector<int> Parts::dynamicBodies(const char* key) const {
     const auto it = spec_.parameters.find(key);
     if (it == spec_.parameters.end()) {
         for (int i = 0; i < static_cast<int>(scenario_.bodies.size()); ++i)
-            if (scenario_.bodies[static_cast<std::size_t>(i)].type == BodyType::Dynamic) bodies.push_back(i);
+            if (scenario_.bodies[i].type == BodyType::Dynamic) bodies.push_back(i);
     } else if (const auto* name = std::get_if<std::string>(&it->second)) {
         bodies.push_back(byName(key, *name));
     } else if (const auto* names = std::get_if<std::vector<std::string>>(&it->second)) {
@@ -130,7 +128,7 @@ std::vector<int> Parts::dynamicBodies(const char* key) const {
     }
     if (bodies.empty()) bad("no dynamic body for parameter '" + std::string(key) + "'");
     for (const int body : bodies)
-        if (scenario_.bodies[static_cast<std::size_t>(body)].type != BodyType::Dynamic)
+        if (scenario_.bodies[body].type != BodyType::Dynamic)
             bad("parameter '" + std::string(key) + "': " + bodyTitle(scenario_, body) + " is not dynamic");
     return bodies;
 }
@@ -139,7 +137,7 @@ int Parts::joint(const char* key, int body) const {
     const auto name = text(key);
     int found = scenario::kNone;
     for (int i = 0; i < static_cast<int>(scenario_.joints.size()); ++i) {
-        const auto& joint = scenario_.joints[static_cast<std::size_t>(i)];
+        const auto& joint = scenario_.joints[i];
         if (name ? joint.name != *name : (joint.bodyA != body && joint.bodyB != body)) continue;
         if (found != scenario::kNone) bad("parameter '" + std::string(key) + "' is missing");
         found = i;
@@ -159,7 +157,7 @@ Vec3 centerOfMass(const Body& body, const BodyState& state) {
 }
 
 Vec3 gravityOn(const Scenario& scenario, int body) {
-    return scenario.bodies[static_cast<std::size_t>(body)].gravityScale * scenario.gravity;
+    return scenario.bodies[body].gravityScale * scenario.gravity;
 }
 
 Mat3 worldInertia(const Body& body) {
@@ -256,7 +254,7 @@ void requireUndisturbed(const Scenario& scenario, int index, Allowed allowed) {
 }
 
 void requireStill(const Scenario& scenario, int body) {
-    const Body& b = scenario.bodies[static_cast<std::size_t>(body)];
+    const Body& b = scenario.bodies[body];
     require(b.velocity == Vec3{} && b.angularVelocity == Vec3{}, bodyTitle(scenario, body) + " moves");
 }
 

@@ -65,7 +65,7 @@ void writeValues(Hdf5File& owner, hid_t file, const std::string& path, const std
     if (columns < 1 || values.size() % static_cast<std::size_t>(columns) != 0)
         failed(what + ": " + std::to_string(values.size()) + " values in " + std::to_string(columns) +
                " columns");
-    const hsize_t width = static_cast<hsize_t>(columns);
+    const hsize_t width = columns;
     const hsize_t extent[2] = {values.size() / width, width};
     const Handle space(H5Screate_simple(columns == 1 ? 1 : 2, extent, nullptr), H5Sclose, what);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
@@ -96,7 +96,7 @@ std::vector<T> readValues(hid_t file, const std::string& path, int& columns, hid
     if (rank != 1 && rank != 2) failed(what + ": it has neither one nor two dimensions");
     hsize_t extent[2] = {0, 1};
     H5Sget_simple_extent_dims(space, extent, nullptr);
-    columns = static_cast<int>(extent[1]);
+    columns = extent[1];
     std::vector<T> values(extent[0] * extent[1]);
     if (!values.empty()) check(H5Dread(set, memoryType, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
     return values;

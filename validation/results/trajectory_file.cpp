@@ -140,7 +140,7 @@ void writeContacts(Hdf5File& file, const std::vector<ContactSample>& contacts) {
     file.writeIntegers("/contacts/body_a_body_b_shape_a_shape_b", indices, 4, "1");
     for (const ContactField& field : kContactFields) {
         std::vector<double> values;
-        values.reserve(contacts.size() * static_cast<std::size_t>(field.columns));
+        values.reserve(contacts.size() * field.columns);
         for (ContactSample c : contacts) {
             const double* first = field.at(c);
             values.insert(values.end(), first, first + field.columns);
@@ -167,8 +167,7 @@ std::vector<ContactSample> readContacts(Hdf5File& file) {
         if (columns != field.columns || values.size() != contacts.size() * width)
             throw std::runtime_error(std::string("/contacts/") + field.name + " has the wrong size");
         for (std::size_t i = 0; i < contacts.size(); ++i)
-            std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * width), width,
-                        field.at(contacts[i]));
+            std::copy_n(values.begin() + (i * width), width, field.at(contacts[i]));
     }
     return contacts;
 }

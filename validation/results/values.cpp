@@ -15,7 +15,7 @@ const MetricRow* wholeScene(const CaseRow& row, const std::string& metric) {
 
 std::optional<double> steppingTime(const CaseRow& row) {
     for (const TimingRow& t : row.timings)
-        if (t.phase == "step") return t.median * static_cast<double>(row.steps);
+        if (t.phase == "step") return t.median * row.steps;
     return std::nullopt;
 }
 

@@ -35,7 +35,7 @@ struct BallVisitor {
     Ball operator()(const scenario::Cone& s) const { return {{}, std::hypot(s.radius, s.halfLength)}; }
     Ball operator()(const scenario::ConvexHull& s) const {
         Ball ball;
-        for (const Vec3& v : s.vertices) ball.center += v / static_cast<double>(s.vertices.size());
+        for (const Vec3& v : s.vertices) ball.center += v / s.vertices.size();
         for (const Vec3& v : s.vertices) ball.radius = std::max(ball.radius, norm(v - ball.center));
         return ball;
     }
@@ -91,7 +91,7 @@ double gap(const ShapeAt& a, const ShapeAt& b) {
 
 std::vector<Candidate> candidates(const Scenario& s) {
     std::vector<Candidate> pairs;
-    const int bodies = static_cast<int>(s.bodies.size());
+    const int bodies = s.bodies.size();
     const auto shapes = [&](int body) { return static_cast<int>(s.bodies[body].shapes.size()); };
     for (int a = 0; a < bodies; ++a)
         for (int b = a + 1; b < bodies; ++b) {
@@ -103,8 +103,7 @@ std::vector<Candidate> candidates(const Scenario& s) {
 }
 
 std::size_t frameAt(const results::TrajectoryFile& file, double time) {
-    return static_cast<std::size_t>(std::lower_bound(file.times.begin(), file.times.end(), time) -
-                                    file.times.begin());
+    return std::lower_bound(file.times.begin(), file.times.end(), time) - file.times.begin();
 }
 
 /// Half of the frames evenly over the run, half evenly over those at which a step with contacts began.

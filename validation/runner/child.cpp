@@ -100,7 +100,7 @@ CaseRow runRequested(const json& request, const scenario::Scenario& s, const ada
     const double dt = numberFromJson(request.at("dt"));
     LiveOptions options = optionsOf(request, make);
     if (const int order = request.value("order", 0); order > 0)
-        options.given = listed(s, otherListings(s, static_cast<std::size_t>(order)).back());
+        options.given = listed(s, otherListings(s, order).back());
     WholeCase whole = runWholeCase(s, spec, dt, options);
     CaseRow& row = whole.live.row;
     row.id = request.at("id");

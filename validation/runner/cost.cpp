@@ -23,7 +23,7 @@ void CostMeter::add(const adapter::StepCounters& counters) {
     for (std::size_t i = 0; i < kCosts.size(); ++i) {
         const std::int64_t count = counters.*kCosts[i].counter;
         if (count >= 0) {
-            sums_[i].total += static_cast<double>(count);
+            sums_[i].total += count;
             ++sums_[i].samples;
         }
     }
@@ -37,7 +37,7 @@ std::vector<results::MetricRow> CostMeter::rows() const {
         row.name = kCosts[i].name;
         row.unit = "1";
         row.kind = "cost";
-        row.value = sums_[i].total / static_cast<double>(sums_[i].samples);
+        row.value = sums_[i].total / sums_[i].samples;
         rows.push_back(row);
     }
     return rows;

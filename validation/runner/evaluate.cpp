@@ -91,7 +91,7 @@ void evaluateMetric(const MetricEntry& entry, const MetricInput& input, Relative
 
 // ------------------------------------------------------------------------------------------- trajectory
 results::Channel channel(const char* unit, int columns, std::size_t frames) {
-    return {unit, columns, std::vector<double>(frames * static_cast<std::size_t>(columns), kNaN)};
+    return {unit, columns, std::vector<double>(frames * columns, kNaN)};
 }
 
 results::BodyChannels emptyBody(const std::string& name, std::size_t frames) {
@@ -234,7 +234,7 @@ results::TrajectoryFile trajectoryFile(const MetricInput& input, const CaseRow& 
     for (const Series& s : diagnosticSeries(input))
         file.series.push_back({s.name, s.subject, {s.unit, 1, s.values}});
     const std::size_t every = contactStride(t);
-    file.contactStride = static_cast<int>(every);
+    file.contactStride = every;
     file.contacts = contactSamples(t, every);
     return file;
 }

@@ -78,7 +78,7 @@ bool forcesNeedStates(const Scenario& scenario, const adapter::World& world) {
 
 void applyForces(const Scenario& scenario, std::size_t step, double dt, std::span<const BodyState> states,
                  adapter::World& world) {
-    const double begin = static_cast<double>(step) * dt;
+    const double begin = step * dt;
     const Step now{scenario, begin, dt, states, world};
     if (!world.evaluatesForces())
         for (const scenario::Force& force : scenario.forces)

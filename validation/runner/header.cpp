@@ -116,7 +116,7 @@ results::Run runHeader(const std::vector<CasePlan>& plan, const RunOptions& opti
     for (const CasePlan& c : plan)
         if (seen.insert(c.scenario.name).second)
             run.scenarios.push_back(scenarioRow(c, references.at(c.scenario.name)));
-    run.plannedCases = static_cast<std::int64_t>(plan.size());
+    run.plannedCases = plan.size();
     return run;
 }
 

@@ -32,7 +32,7 @@ void LineWriter::add(const json& value) {
     for (std::size_t at = 0; at < text.size();) {
         const ssize_t n = write(file_, text.data() + at, text.size() - at);
         if (n > 0)
-            at += static_cast<std::size_t>(n);
+            at += n;
         else if (errno != EINTR)
             refuse();
     }

@@ -83,7 +83,7 @@ WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec
     whole.scheme = world->scheme();
 
     Simulation run = simulate(given, dt, *world, options);
-    row.steps = static_cast<std::int64_t>(run.steps);
+    row.steps = run.steps;
     row.stateHash = run.stateHash;
     row.timings = std::move(run.timings);
     row.timings.insert(row.timings.begin() + 1,

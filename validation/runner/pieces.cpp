@@ -38,12 +38,12 @@ std::optional<Truth> truthOfReference(const Scenario& s, double dt, const Refere
     const std::size_t steps = stepCount(s, dt);
     Truth truth{{}, "the reference " + s.reference->name};
     for (std::size_t n = 0; n <= steps; ++n) {
-        const double t = static_cast<double>(n) * dt;
+        const double t = n * dt;
         if (t > reference.validUntil()) return std::nullopt;
         States& states = truth.at.emplace_back(s.bodies.size());
         for (std::size_t i = 0; i < s.bodies.size(); ++i) {
             if (!isDynamic(s, i)) continue;
-            const int body = static_cast<int>(i);
+            const int body = i;
             if (std::find(known.begin(), known.end(), body) == known.end()) return std::nullopt;
             const PartialState p = reference.exact(body, t);
             if (!p.position || !p.orientation || !p.velocity || !p.angularVelocity) return std::nullopt;
@@ -157,8 +157,7 @@ std::vector<MetricRow> measurePieces(const Scenario& scenario, double dt, const 
     for (const int k : every) {
         const auto world = build(dt);
         auto& setter = dynamic_cast<adapter::StateSetting&>(*world);
-        const PieceErrors errors =
-            pieceErrorsOf(scenario, dt, static_cast<std::size_t>(k), *world, setter, *truth);
+        const PieceErrors errors = pieceErrorsOf(scenario, dt, k, *world, setter, *truth);
         const std::string note = errors.ways.empty()
                                      ? "the run is shorter than a piece"
                                      : std::to_string(errors.ways.size()) + " pieces, put back on " +

@@ -21,7 +21,7 @@ namespace rigor::validation {
 namespace {
 
 double seconds(const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * t.tv_usec;
+    return t.tv_sec + 1e-6 * t.tv_usec;
 }
 
 /// Processor time of a process and its threads so far [s]; negative where it is not known.
@@ -29,7 +29,7 @@ double processorTimeOf(pid_t pid) {
     clockid_t clock = 0;
     timespec t{};
     if (clock_getcpuclockid(pid, &clock) != 0 || clock_gettime(clock, &t) != 0) return -1.0;
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    return t.tv_sec + 1e-9 * t.tv_nsec;
 }
 
 /// A child that has done nothing for so long is blocked: on a busy machine it would have had its turn.

@@ -110,9 +110,7 @@ double readBackTolerance(const std::string& precision) {
 std::vector<ReadBackRow> compareReadBack(const Scenario& scenario, const adapter::ReadBack& readBack,
                                          double tolerance) {
     const std::size_t count = scenario.bodies.size();
-    if (readBack.bodies.size() != count)
-        return {scalar("bodies", "", static_cast<double>(count), static_cast<double>(readBack.bodies.size()),
-                       0.0)};
+    if (readBack.bodies.size() != count) return {scalar("bodies", "", count, readBack.bodies.size(), 0.0)};
     std::vector<ReadBackRow> rows;
     for (std::size_t i = 0; i < count; ++i) {
         auto some = bodyRows(scenario, scenario.bodies[i], readBack.bodies[i], tolerance);

@@ -131,7 +131,7 @@ class RunInProgress {
         for (const auto& s : header.scenarios) scenarios_[s.name] = s;
         if (!options_.records.empty()) record_ = Record(options_.records, header.engines);
 
-        progress_.total = static_cast<std::int64_t>(plan_.size());
+        progress_.total = plan_.size();
         for (const CasePlan& c : plan_) ++open_[c.scenario.name];
         for (std::size_t i = 0; i < plan_.size(); ++i)
             if (const auto it = present.find(plan_[i].id); it != present.end() && hasOrders(i, it->second))
@@ -162,7 +162,7 @@ class RunInProgress {
     /// A case that an earlier part of the run has stored.
     void keep(std::size_t index, const CaseRow& stored) {
         CaseRow row = stored;
-        row.position = static_cast<std::int64_t>(index);
+        row.position = index;
         compareWithRecord(record_, scenarios_.at(row.scenario), row);
         if (row.position != stored.position || row.regression != stored.regression) writer_.writeCase(row);
         ++progress_.skipped;
@@ -181,7 +181,7 @@ class RunInProgress {
     /// one.
     double runsOfCase() const {
         if (options_.pieces.empty()) return 1.0;
-        return static_cast<double>(1 + kConvergedSteps + 2 * options_.pieces.size());
+        return 1 + kConvergedSteps + 2 * options_.pieces.size();
     }
 
     /// Request to every child of a case. `name`: the stem of its files in the scratch folder.
@@ -270,9 +270,9 @@ class RunInProgress {
     CaseRow rowOf(std::size_t index, const std::string& name, const ProcessResult& result) {
         const CasePlan& c = plan_[index];
         const auto json = result.exitedWith(0) ? readJsonFile(answerOf(name)) : std::nullopt;
-        CaseRow row = json ? caseFromJson(*json) : failedRow(c, static_cast<std::int64_t>(index), result);
+        CaseRow row = json ? caseFromJson(*json) : failedRow(c, index, result);
         row.id = c.id;
-        row.position = static_cast<std::int64_t>(index);
+        row.position = index;
         row.wallSeconds = result.wallSeconds;
         row.cpuSeconds = result.cpuSeconds;
         if (!json) row.peakMemoryKiB = result.peakMemoryKiB;
@@ -356,8 +356,7 @@ class RunInProgress {
         if (ran > 0) {
             const double elapsed =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-            progress_.etaSeconds =
-                elapsed / static_cast<double>(ran) * static_cast<double>(progress_.total - progress_.done);
+            progress_.etaSeconds = elapsed / ran * (progress_.total - progress_.done);
         }
         progress_.finished = finished;
         if (onProgress_) onProgress_(progress_);

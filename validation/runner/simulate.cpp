@@ -25,7 +25,7 @@ void describeAfterFirst(const std::vector<double>& samples, results::TimingRow& 
     if (samples.size() < 2) return;
     row.first = samples.front();
     std::vector<double> others(samples.begin() + 1, samples.end());
-    row.mean = std::accumulate(others.begin(), others.end(), 0.0) / static_cast<double>(others.size());
+    row.mean = std::accumulate(others.begin(), others.end(), 0.0) / others.size();
     std::sort(others.begin(), others.end());
     row.p95 = quantileOfSorted(others, 0.95);
     row.p99 = quantileOfSorted(others, 0.99);
@@ -38,7 +38,7 @@ results::TimingRow timingRow(const std::string& phase, std::vector<double> sampl
     results::TimingRow row;
     row.phase = phase;
     row.meanContacts = meanContacts;
-    row.samples = static_cast<std::int64_t>(samples.size());
+    row.samples = samples.size();
     if (samples.empty()) return row;
     for (const double s : samples) row.total += s;
     if (const auto interval = medianInterval(samples)) {
@@ -65,13 +65,12 @@ class Stopwatch {
         costs_.add(counters);
         for (const auto& [phase, seconds] : counters.phaseSeconds) phases_[phase].push_back(seconds);
         if (counters.contacts >= 0) {
-            contacts_ += static_cast<double>(counters.contacts);
+            contacts_ += counters.contacts;
             ++counted_;
         }
     }
     std::vector<results::TimingRow> rows(const Trajectory& trajectory) const {
-        const double contacts =
-            counted_ > 0 ? contacts_ / static_cast<double>(counted_) : recordedContacts(trajectory);
+        const double contacts = counted_ > 0 ? contacts_ / counted_ : recordedContacts(trajectory);
         std::vector<results::TimingRow> rows{timingRow("step", steps_, contacts)};
         if (rows[0].mean && *rows[0].mean > 0.0) rows[0].realTimeFactor = trajectory.dt / *rows[0].mean;
         for (const auto& [phase, samples] : phases_) rows.push_back(timingRow(phase, samples, contacts));
@@ -83,8 +82,8 @@ class Stopwatch {
   private:
     static double recordedContacts(const Trajectory& t) {
         double sum = 0.0;
-        for (const auto& frame : t.contacts) sum += static_cast<double>(frame.size());
-        return t.frames() > 1 ? sum / static_cast<double>(t.frames() - 1) : 0.0;
+        for (const auto& frame : t.contacts) sum += frame.size();
+        return t.frames() > 1 ? sum / (t.frames() - 1) : 0.0;
     }
     CostMeter costs_;
     std::vector<double> steps_;
@@ -108,8 +107,8 @@ std::size_t stepCount(const Scenario& scenario, double dt) {
 int recordingStride(std::size_t steps, std::size_t bodies) {
     const std::size_t least = std::max<std::size_t>(1, (steps * bodies + kMostStates - 1) / kMostStates);
     for (std::size_t stride = least; stride <= 2 * least; ++stride)
-        if (steps % stride == 0) return static_cast<int>(stride);
-    return static_cast<int>(least);
+        if (steps % stride == 0) return stride;
+    return least;
 }
 
 Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, const LiveOptions& options) {

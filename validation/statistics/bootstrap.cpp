@@ -17,7 +17,7 @@ std::vector<Interval> bootstrap(const std::vector<std::size_t>& sizes, std::uint
     std::vector<std::vector<double>> seen;
     for (int k = 0; k < resamples; ++k) {
         for (auto& sample : picks)  // no distribution of the standard library is the same everywhere
-            for (std::size_t& pick : sample) pick = static_cast<std::size_t>(random() % sample.size());
+            for (std::size_t& pick : sample) pick = random() % sample.size();
         const std::vector<double> numbers = statistic(picks);
         seen.resize(numbers.size());
         for (std::size_t i = 0; i < numbers.size(); ++i) seen[i].push_back(numbers[i]);

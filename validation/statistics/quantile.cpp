@@ -15,9 +15,9 @@ struct Place {
     double part = 0.0;    ///< fraction of the way to the next
 };
 Place placeOf(std::size_t n, double q) {
-    const double place = q * static_cast<double>(n - 1);
+    const double place = q * (n - 1);
     const auto low = std::min(static_cast<std::size_t>(place), n - 1);
-    return {low, place - static_cast<double>(low)};
+    return {low, place - low};
 }
 
 double between(double low, double high, double part) {
@@ -31,7 +31,7 @@ double between(double low, double high, double part) {
 
 double quantile(std::vector<double> values, double q) {
     const Place place = placeOf(values.size(), q);
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(place.low);
+    const auto at = values.begin() + place.low;
     std::nth_element(values.begin(), at, values.end());
     return at + 1 == values.end() ? *at : between(*at, *std::min_element(at + 1, values.end()), place.part);
 }

@@ -47,14 +47,14 @@ KolmogorovSmirnov kolmogorovSmirnov(std::vector<double> one, std::vector<double>
     for (long long i = 0; i <= n; ++i)
         for (long long j = 0; j <= m; ++j) {
             const auto k = static_cast<std::size_t>(j);
-            const double steps = static_cast<double>(std::max(1LL, i + j));
+            const double steps = std::max(1LL, i + j);
             const double below = j > 0 ? beyond[k - 1] * static_cast<double>(j) / steps : 0.0;
             beyond[k] = beyond[k] * static_cast<double>(i) / steps + below;
             if (std::abs(i * m - j * n) >= largest) beyond[k] = 1.0;
         }
     const double scale = static_cast<double>(n) * static_cast<double>(m);
     const double p = beyond.back();
-    return {static_cast<double>(largest) / scale, std::min(p, 1.0)};
+    return {largest / scale, std::min(p, 1.0)};
 }
 
 }  // namespace rigor::validation

@@ -99,8 +99,7 @@ const DerivedRunPlanner::Made& DerivedRunPlanner::member(const CasePlan& own, co
     if (!isNew) return it->second;
     const scenario::StudyEnsemble& e = *part.ensemble;
     it->second.loaded =
-        asFile(perturbed(own.scenario, {e.position, e.angle, e.velocity, e.spin},
-                         static_cast<std::uint64_t>(e.seed), static_cast<std::uint32_t>(number)),
+        asFile(perturbed(own.scenario, {e.position, e.angle, e.velocity, e.spin}, e.seed, number),
                own.scenario.name, tail, "start " + std::to_string(number) + " beside it");
     return it->second;
 }

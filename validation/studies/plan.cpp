@@ -43,9 +43,8 @@ struct Placed {
 };
 
 int movingBodies(const scenario::Scenario& s) {
-    return static_cast<int>(std::count_if(s.bodies.begin(), s.bodies.end(), [](const scenario::Body& b) {
-        return b.type == scenario::BodyType::Dynamic;
-    }));
+    return std::count_if(s.bodies.begin(), s.bodies.end(),
+                         [](const scenario::Body& b) { return b.type == scenario::BodyType::Dynamic; });
 }
 
 /// `base` as the file has it where nothing is changed, else with the part's name and the place in the grid:

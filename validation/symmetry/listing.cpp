@@ -38,7 +38,7 @@ void moveTo(std::vector<T>& list, const std::vector<int>& places) {
 
 std::vector<int> inverse(const std::vector<int>& places) {
     std::vector<int> at(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i) at[places[i]] = static_cast<int>(i);
+    for (std::size_t i = 0; i < places.size(); ++i) at[places[i]] = i;
     return at;
 }
 

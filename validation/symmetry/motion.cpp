@@ -66,7 +66,7 @@ void holdToFrame(Scenario& s) {
     while (findBody(s, frame.name) != kNone) frame.name += "_";
     frame.type = BodyType::Kinematic;
     frame.collides = false;
-    const int index = static_cast<int>(s.bodies.size());
+    const int index = s.bodies.size();
     s.bodies.push_back(frame);
     for (Joint& j : s.joints) {
         if (j.bodyA == kNone) j.bodyA = index;
@@ -94,13 +94,13 @@ Trajectory movedBack(const Trajectory& trajectory, const Vec3& start, const Vec3
         });
     for (std::size_t f = 0; f < t.frames(); ++f)
         for (std::size_t i = 0; i < stays.size(); ++i)
-            if (stays[i]) t.states[f * t.bodyCount + i] = trajectory.state(f, static_cast<int>(i));
+            if (stays[i]) t.states[f * t.bodyCount + i] = trajectory.state(f, i);
     return t;
 }
 
 std::vector<int> firstBodies(std::size_t count) {
     std::vector<int> place(count);
-    for (std::size_t i = 0; i < count; ++i) place[i] = static_cast<int>(i);
+    for (std::size_t i = 0; i < count; ++i) place[i] = i;
     return place;
 }
 

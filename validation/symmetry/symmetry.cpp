@@ -114,7 +114,7 @@ Trajectory reordered(const Trajectory& trajectory, const std::vector<int>& place
     t.bodyCount = place.size();
     t.states.clear();
     std::vector<int> before(trajectory.bodyCount, scenario::kNone);
-    for (std::size_t i = 0; i < place.size(); ++i) before[place[i]] = static_cast<int>(i);
+    for (std::size_t i = 0; i < place.size(); ++i) before[place[i]] = i;
     for (std::size_t f = 0; f < trajectory.frames(); ++f) {
         for (const int p : place) t.states.push_back(trajectory.state(f, p));
         if (f >= t.contacts.size()) continue;

@@ -20,7 +20,7 @@ using namespace scenario;
 
 /// Friction or a loss at a contact that could happen.
 bool contactsLose(const Scenario& s) {
-    const int n = static_cast<int>(s.bodies.size());
+    const int n = s.bodies.size();
     for (int a = 0; a < n; ++a)
         for (int b = a + 1; b < n; ++b) {
             if (!mayCollide(s, a, b)) continue;

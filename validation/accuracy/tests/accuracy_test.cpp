@@ -36,8 +36,8 @@ class Glide : public Reference {
     std::optional<PartialState> schemeExact(int body, std::size_t step, double dt,
                                             adapter::Scheme) const override {
         if (late_ < 0.0) return std::nullopt;
-        PartialState s = exact(body, static_cast<double>(step) * dt);
-        s.position = *s.position - late_ * static_cast<double>(step) * dt * kVelocity;
+        PartialState s = exact(body, step * dt);
+        s.position = *s.position - late_ * step * dt * kVelocity;
         return s;
     }
     std::vector<Quantity> quantities(double, adapter::Scheme) const override {

@@ -38,7 +38,7 @@ class BroadPhaseBench final : public BenchCase {
         : spec_(adapter::parseSpec(planned.engine)),
           engine_(adapter::loadEngine(spec_)),
           settings_(adapter::resolveSettings(spec_, *engine_)),
-          count_(static_cast<std::size_t>(std::llround(planned.size))) {
+          count_(std::llround(planned.size)) {
         timed_ = dynamic_cast<const adapter::TimedBroadPhaseEngine*>(engine_->broadPhase());
         if (timed_ == nullptr)
             throw adapter::Unsupported(spec_.engine + " has no broad phase that can be timed by itself");

@@ -28,9 +28,7 @@ double middle(const std::vector<double>& values) {
     return values.empty() ? 0.0 : median(values);
 }
 double mean(const std::vector<double>& values) {
-    return values.empty()
-               ? 0.0
-               : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    return values.empty() ? 0.0 : std::accumulate(values.begin(), values.end(), 0.0) / values.size();
 }
 
 }  // namespace
@@ -120,7 +118,7 @@ void fillTimes(const CountingStopwatch& watch, bool means, results::BenchRepetit
     // The clocks tick in nanoseconds; a time of 0 would mean that nothing was measured.
     done.wall = std::max(done.wall, 1e-9);
     done.cpu = std::max(done.cpu, 1e-9);
-    done.samples = static_cast<std::int64_t>(samples.wall.size());
+    done.samples = samples.wall.size();
     watch.writeAllocations(done);
 }
 

@@ -22,7 +22,7 @@ MovingBoxes::MovingBoxes(int dimension, std::size_t count, BoxOrder order, std::
       boxes_(count) {
     for (Mover& mover : movers_)
         for (int k = 0; k < dimension_; ++k) {
-            mover.center[k] = static_cast<float>(random_.between(0.0, static_cast<double>(side_)));
+            mover.center[k] = static_cast<float>(random_.between(0.0, side_));
             mover.velocity[k] = static_cast<float>(random_.between(-3.0, 3.0));
         }
     if (order == BoxOrder::Spatial)
@@ -47,7 +47,7 @@ void MovingBoxes::place() {
         const float* c = movers_[i].center;
         const auto corner = [&](float by) {
             return adapter::Vec3{static_cast<double>(c[0] + by), static_cast<double>(c[1] + by),
-                                 dimension_ == 2 ? 0.0 : static_cast<double>(c[2] + by)};
+                                 dimension_ == 2 ? 0.0 : c[2] + by};
         };
         boxes_[i] = {corner(-0.5f), corner(0.5f)};
     }

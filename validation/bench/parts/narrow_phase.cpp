@@ -67,7 +67,7 @@ Judgement judgeDepths(adapter::CollisionBatch& batch, const std::vector<double>&
         judgement.meanError += error;
         ++compared;
     }
-    if (compared > 0) judgement.meanError /= static_cast<double>(compared);
+    if (compared > 0) judgement.meanError /= compared;
     judgement.wrongShare =
         static_cast<double>(wrong) / static_cast<double>(std::max<std::size_t>(1, depths.size()));
     return judgement;

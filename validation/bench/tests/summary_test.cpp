@@ -117,7 +117,7 @@ TEST(Summary, RatiosPairTheRounds) {
     Bench bench;
     bench.cases = {caseOf("a", 1e-3, 12, 1), caseOf("b", 3e-3, 12, 2)};
     for (auto& c : bench.cases)  // the machine gets slower and slower
-        for (auto& r : c.repetitions) r.cpu *= 1.0 + static_cast<double>(r.round);
+        for (auto& r : c.repetitions) r.cpu *= 1.0 + r.round;
     summarise(bench, {}, "a");
     const auto& s = bench.cases[1].summary;
     EXPECT_NEAR(*s.ratio, 3.0, 0.06);

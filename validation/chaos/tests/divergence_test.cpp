@@ -33,9 +33,7 @@ struct Pair {
         }
         b = a;
     }
-    BodyState& atB(int frame, int body) {
-        return b.states[static_cast<std::size_t>(frame) * b.bodyCount + static_cast<std::size_t>(body)];
-    }
+    BodyState& atB(int frame, int body) { return b.states[frame * b.bodyCount + body]; }
     static void touch(Trajectory& t, int frame, int one, int other) {
         ContactPoint c;
         c.bodyA = one;

@@ -158,7 +158,7 @@ Stored fourWays() {
                 c.preset = preset;
                 c.spec = std::string(engine) + ":preset=" + preset;
                 c.dt = dt;
-                c.position = static_cast<std::int64_t>(run.cases.size());
+                c.position = run.cases.size();
                 c.metrics[0].value = (c.engine == "ode" ? 1.0 : 0.5) * dt;
                 run.cases.push_back(c);
             }

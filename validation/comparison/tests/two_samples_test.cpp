@@ -73,8 +73,7 @@ TEST(RatioOfMedians, HoldsTheTruthAsOftenAsItSays) {
     int few = 0, many = 0;
     for (int i = 0; i < kTrials; ++i) {
         const auto holds = [&](std::size_t count) {
-            const auto found = ratioOfMedians(times(random, count, 2.0), times(random, count, 3.0),
-                                              static_cast<std::uint64_t>(i), 400);
+            const auto found = ratioOfMedians(times(random, count, 2.0), times(random, count, 3.0), i, 400);
             return found.interval.low <= 1.5 && 1.5 <= found.interval.high ? 1 : 0;
         };
         few += holds(6);

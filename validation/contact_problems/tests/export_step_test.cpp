@@ -51,8 +51,7 @@ ContactSolution solveNsgs(const ExportedProblem& exported) {
 /// Sum over the contacts of component k.
 double total(const std::vector<double>& r, int dimension, int k) {
     double sum = 0.0;
-    for (std::size_t i = static_cast<std::size_t>(k); i < r.size(); i += static_cast<std::size_t>(dimension))
-        sum += r[i];
+    for (std::size_t i = k; i < r.size(); i += dimension) sum += r[i];
     return sum;
 }
 

@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 /// Random and unsymmetric: m velocities in two groups, `contacts` contacts, p bilateral rows.
 ExportedProblem randomGlobal(int dimension, int contacts, int m, int p, unsigned seed) {
     std::mt19937 engine(seed);
-    const auto draw = [&] { return static_cast<double>(engine()) / 2147483648.0 - 1.0; };
+    const auto draw = [&] { return engine() / 2147483648.0 - 1.0; };
     ExportedProblem exported;
     exported.isGlobal = true;
     exported.title = "random";
@@ -137,7 +137,7 @@ TEST(Condensation, AgreesWithTheEquationsItComesFrom) {
         const ExportedProblem exported = randomGlobal(3, 3, 8, bilateral, 11);
         const ContactProblem& p = exported.problem;
         std::vector<double> r(p.size());
-        for (std::size_t i = 0; i < r.size(); ++i) r[i] = std::sin(1.0 + static_cast<double>(i));
+        for (std::size_t i = 0; i < r.size(); ++i) r[i] = std::sin(1.0 + i);
         const std::vector<double> v = velocitiesFor(exported, r);
         std::vector<double> u = p.w;
         multiplyTransposedAdd(p.H, v, u);

@@ -16,7 +16,7 @@ inline ExportedProblem massPoint(double m, double mu, const std::vector<double>&
     ExportedProblem exported;
     exported.title = "mass point";
     ContactProblem& p = exported.problem;
-    p.dimension = static_cast<int>(v.size());
+    p.dimension = v.size();
     p.mu = {mu};
     p.q = v;
     p.W.assign(v.size() * v.size(), 0.0);
@@ -30,7 +30,7 @@ inline ExportedProblem bodyPoint(double mu, const std::vector<double>& v) {
     exported.title = "body";
     exported.isGlobal = true;
     ContactProblem& p = exported.problem;
-    const int d = static_cast<int>(v.size()), dofs = d == 3 ? 6 : 3;
+    const int d = v.size(), dofs = d == 3 ? 6 : 3;
     p.dimension = d;
     p.mu = {mu};
     std::vector<Triplet> M, H;

@@ -173,8 +173,8 @@ TEST(Fit, RecoversFrictionAndRestitutionOfTossesOfClosedForm) {
                 EXPECT_EQ(m.kind, "measured");
                 sum += m.value;
             }
-    EXPECT_NEAR(sum / static_cast<double>(run.cases.size()),
-                scoreOf(first.scores, "test", "fitted", "measured_loss").score.mean, 1e-12);
+    EXPECT_NEAR(sum / run.cases.size(), scoreOf(first.scores, "test", "fitted", "measured_loss").score.mean,
+                1e-12);
     EXPECT_THAT(readTextFile(folder / "fit.md"), HasSubstr("rigor:preset=default"));
     EXPECT_THAT(readTextFile(folder / "fit.csv"),
                 HasSubstr("\"rigor:preset=default\",test,fitted,measured_loss,8,0,"));

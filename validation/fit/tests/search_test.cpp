@@ -21,7 +21,7 @@ class Rough {
     Rough(std::size_t recordings, double scatter, double roughness, std::uint64_t seed)
         : roughness_(roughness) {
         std::mt19937_64 random(seed);
-        const auto uniform = [&] { return static_cast<double>(random() >> 11) / 9007199254740992.0 - 0.5; };
+        const auto uniform = [&] { return (random() >> 11) / 9007199254740992.0 - 0.5; };
         for (std::size_t k = 0; k < recordings; ++k)
             minima_.push_back({0.37 + scatter * uniform(), 0.61 + 4 * scatter * uniform()});
     }

@@ -44,7 +44,7 @@ class Lexer {
             lineStart_ = false;
             const std::string_view text = source_.substr(begin, at_ - begin);
             found.push_back({text, line_});
-            line_ += static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+            line_ += std::count(text.begin(), text.end(), '\n');
         }
         return found;
     }
@@ -74,7 +74,7 @@ class Lexer {
         const std::size_t next =
             std::min(end == std::string_view::npos ? end : end + (block ? 2 : 0), source_.size());
         const std::string_view text = source_.substr(at_, next - at_);
-        line_ += static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+        line_ += std::count(text.begin(), text.end(), '\n');
         at_ = next;
         return true;
     }

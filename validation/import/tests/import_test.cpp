@@ -239,7 +239,7 @@ double frozenLoss(const Scenario& s) {
     Trajectory run;
     run.dt = 1 / 148.0;
     run.bodyCount = s.bodies.size();
-    for (double t = 0.0; t < s.duration + 0.5 * run.dt; t = static_cast<double>(run.times.size()) * run.dt) {
+    for (double t = 0.0; t < s.duration + 0.5 * run.dt; t = run.times.size() * run.dt) {
         run.times.push_back(t);
         run.contacts.emplace_back();
         for (const Body& body : s.bodies)

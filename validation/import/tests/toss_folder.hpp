@@ -31,8 +31,8 @@ inline std::string tossText(const std::vector<TossLine>& lines, double rate = 14
         char line[400];
         std::snprintf(line, sizeof line,
                       "%.9f,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
-                      static_cast<double>(k) / rate, x.p.x, x.p.y, x.p.z, x.q.w, x.q.x, x.q.y, x.q.z, x.v.x,
-                      x.v.y, x.v.z, x.wBody.x, x.wBody.y, x.wBody.z);
+                      k / rate, x.p.x, x.p.y, x.p.z, x.q.w, x.q.x, x.q.y, x.q.z, x.v.x, x.v.y, x.v.z,
+                      x.wBody.x, x.wBody.y, x.wBody.z);
         text += line;
     }
     return text;
@@ -50,7 +50,7 @@ struct Flight {
     }
     std::vector<TossLine> lines(std::size_t count, double rate = 148) const {
         std::vector<TossLine> all;
-        for (std::size_t k = 0; k < count; ++k) all.push_back(at(static_cast<double>(k) / rate));
+        for (std::size_t k = 0; k < count; ++k) all.push_back(at(k / rate));
         return all;
     }
 };

@@ -175,7 +175,7 @@ TEST(Instance, AFrameHasWhatTheWorldHas) {
     const auto sizes = packet.arrays.integers("iterations/sizes");
     ASSERT_GE(sizes.size(), 2u);
     std::size_t all = 0;
-    for (std::size_t i = 1; i < sizes.size(); i += 2) all += static_cast<std::size_t>(sizes[i]);
+    for (std::size_t i = 1; i < sizes.size(); i += 2) all += sizes[i];
     EXPECT_EQ(packet.arrays.doubles("iterations/impulses").size(), all);
     const auto start = packet.arrays.doubles("iterations/start");
     EXPECT_EQ(start.size(), static_cast<std::size_t>(sizes[1]));

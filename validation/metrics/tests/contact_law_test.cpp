@@ -200,7 +200,7 @@ TEST(PointOfContact, RespondsAsTheBodiesDo) {
         for (std::size_t i = 0; i < 2; ++i) {
             states[i].position = s.bodies[i].pose.position;
             const Vec3 axis = dimension == 3 ? Vec3{0.6, 0, 0.8} : Vec3{0, 0, 1};
-            states[i].orientation = fromAxisAngle(axis, 0.7 + static_cast<double>(i));
+            states[i].orientation = fromAxisAngle(axis, 0.7 + i);
         }
         ContactPoint c;
         c.bodyA = 0;

@@ -33,7 +33,7 @@ class Glide : public Reference {
     }
     std::optional<PartialState> schemeExact(int body, std::size_t step, double dt,
                                             adapter::Scheme) const override {
-        const double t = static_cast<double>(step) * dt;
+        const double t = step * dt;
         PartialState late = exact(body, t);
         late.position = *late.position - 0.5 * dt * kVelocity;
         late.velocity = 0.99 * *late.velocity;
@@ -90,7 +90,7 @@ std::unique_ptr<Case> gliding() {
     addBall(c->scenario, "first", 0.1, 2, 0.4, {0, 0, 0}, kVelocity, kSpin);
     addBall(c->scenario, "second", 0.2, 1, 0.4, {0, 0, 5}, kVelocity);
     c->reference = std::make_unique<Glide>(c->scenario);
-    c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
+    c->run = exactRun(c->scenario, *c->reference, kDt, kLast);
     return c;
 }
 /// The same, as an ideal run of the scheme.
@@ -99,8 +99,7 @@ std::unique_ptr<Case> ideal() {
     for (std::size_t k = 0; k <= kLast; ++k)
         for (const int b : {0, 1}) {
             const auto s = c->reference->schemeExact(b, k, kDt, adapter::Scheme::SymplecticEuler);
-            c->at(k, static_cast<std::size_t>(b)) = {*s->position, *s->orientation, *s->velocity,
-                                                     *s->angularVelocity};
+            c->at(k, b) = {*s->position, *s->orientation, *s->velocity, *s->angularVelocity};
         }
     return c;
 }
@@ -110,7 +109,7 @@ std::unique_ptr<Case> filmed() {
     c->scenario = emptyScene(3, {}, 1);
     addBox(c->scenario, "plate", {0.4, 0.1, 0.3}, 1, {});
     c->reference = std::make_unique<Filmed>();
-    c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
+    c->run = exactRun(c->scenario, *c->reference, kDt, kLast);
     for (std::size_t k = 0; k <= kLast; ++k) {
         const auto pose = *c->reference->measured(0, c->run.times[k]);
         c->at(k, 0).position = *pose.position;
@@ -125,7 +124,7 @@ std::unique_ptr<Case> resting() {
     addFloor(c->scenario);
     addBall(c->scenario, "ball", 0.25, 2, 0.4, {0, 0.25, 0});
     c->reference = std::make_unique<Still>(c->scenario);
-    c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
+    c->run = exactRun(c->scenario, *c->reference, kDt, kLast);
     ContactPoint touch;
     touch.bodyA = 0;
     touch.bodyB = 1;
@@ -169,7 +168,7 @@ std::unique_ptr<Case> hinged() {
     hinge.axes[0].upper = 0.1;
     c->scenario.joints = {hinge};
     c->reference = std::make_unique<Still>(c->scenario);
-    c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
+    c->run = exactRun(c->scenario, *c->reference, kDt, kLast);
     return c;
 }
 
@@ -181,7 +180,7 @@ std::unique_ptr<Case> heaped() {
     addBall(c->scenario, "left", 0.25, 1, 0.4, {-3, 0.25, 0});
     addBall(c->scenario, "right", 0.25, 1, 0.4, {3, 0.25, 0});
     addBox(c->scenario, "box", {0.3, 0.4, 0.5}, 1, {0, 0.4, 0});
-    c->run = exactRun(c->scenario, Still(c->scenario), kDt, static_cast<int>(kLast));
+    c->run = exactRun(c->scenario, Still(c->scenario), kDt, kLast);
     return c;
 }
 
@@ -428,9 +427,9 @@ TEST(KnownErrors, MeasuredAndExactAreNeverMixed) {
         int count = 0;
         for (const MetricEntry& entry : metricTable())
             if (entry.kind == kind)
-                count += static_cast<int>(
+                count +=
                     entry.evaluate({c.scenario, c.run, c.reference.get(), adapter::Scheme::SymplecticEuler})
-                        .size());
+                        .size();
         return count;
     };
     const auto recorded = filmed(), known = gliding();

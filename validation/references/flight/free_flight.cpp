@@ -91,7 +91,7 @@ class FreeFlight : public Reference {
             if (push.start > 0.0 || push.end < runEnd(scenario_)) return std::nullopt;
             a += push.acceleration;
         }
-        const double t = static_cast<double>(step) * dt;
+        const double t = step * dt;
         const double shift = scheme == adapter::Scheme::SymplecticEuler ? dt
                              : adapter::isEuler(scheme)                 ? -dt
                                                                         : 0.0;
@@ -107,7 +107,7 @@ class FreeFlight : public Reference {
   private:
     void add(int index) {
         requireUndisturbed(scenario_, index, {.constantForces = true, .events = true});
-        const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+        const Body& body = scenario_.bodies[index];
         Flight flight{index,
                       &body,
                       centerOfMass(body),
@@ -158,7 +158,7 @@ class FreeFlight : public Reference {
         double first = 1e300;
         for (const auto& flight : flights_)
             for (int i = 0; i < static_cast<int>(scenario_.bodies.size()); ++i) {
-                const Body& other = scenario_.bodies[static_cast<std::size_t>(i)];
+                const Body& other = scenario_.bodies[i];
                 if (other.type != scenario::BodyType::Static || other.shapes.size() != 1 ||
                     !std::holds_alternative<scenario::HalfSpace>(other.shapes[0].geometry) ||
                     !scenario::mayCollide(scenario_, i, flight.index) || flight.body->shapes.empty())

@@ -77,7 +77,7 @@ class IsolatedSystem : public Reference {
     }
 
   private:
-    const Body& at(int i) const { return scenario_.bodies[static_cast<std::size_t>(i)]; }
+    const Body& at(int i) const { return scenario_.bodies[i]; }
 
     const Scenario& scenario_;
     double mass_ = 0.0, fastest_ = 0.0, smallest_ = 1e300;

@@ -101,7 +101,7 @@ class LinearDrag : public Reference {
   private:
     void add(const Scenario& scenario, int index) {
         requireUndisturbed(scenario, index, {.drag = true, .damping = true});
-        const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
+        const Body& body = scenario.bodies[index];
         Damped d{index,
                  &body,
                  centerOfMass(body),

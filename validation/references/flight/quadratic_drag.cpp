@@ -21,7 +21,7 @@ using namespace numerics;
 class QuadraticDragFlight : public Reference {
   public:
     QuadraticDragFlight(const Scenario& scenario, int index)
-        : scenario_(scenario), index_(index), body_(scenario.bodies[static_cast<std::size_t>(index)]) {
+        : scenario_(scenario), index_(index), body_(scenario.bodies[index]) {
         requireUndisturbed(scenario, index, {.drag = true, .quadraticDrag = true});
         require(body_.angularVelocity == Vec3{}, bodyTitle(scenario, index) + " spins");
         for (const auto& force : scenario.forces)

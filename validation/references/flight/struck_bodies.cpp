@@ -112,7 +112,7 @@ std::vector<std::vector<Vec3>> hullFaces(const std::vector<Vec3>& corners, const
                         on.push_back(v);
                         middle += v;
                     }
-                middle = middle / static_cast<double>(on.size());
+                middle = middle / on.size();
                 const Vec3 s = unit(on[0] - middle), t = cross(u, s);
                 std::sort(on.begin(), on.end(), [&](Vec3 a, Vec3 b) {
                     return std::atan2(dot(t, a - middle), dot(s, a - middle)) <
@@ -216,7 +216,7 @@ class StruckBodies : public Reference {
     void add(int index) {
         Struck one;
         one.index = index;
-        one.body = scenario_.bodies[static_cast<std::size_t>(index)];
+        one.body = scenario_.bodies[index];
         Body& body = one.body;
         const std::string subject = bodyTitle(scenario_, index);
         require(gravityOn(scenario_, index) == Vec3{}, "gravity acts on " + subject);

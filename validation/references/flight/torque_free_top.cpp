@@ -20,7 +20,7 @@ class TorqueFreeTop : public Reference {
     TorqueFreeTop(const Scenario& scenario, int index)
         : scenario_(scenario),
           index_(index),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
+          body_(scenario.bodies[index]),
           gravity_(gravityOn(scenario, index)),
           rotation_(body_, scenario.dimension, runEnd(scenario)) {
         requireUndisturbed(scenario, index);

@@ -23,7 +23,7 @@ class BouncingBall : public Reference {
   public:
     BouncingBall(const Scenario& scenario, int index, int floor)
         : duration_(scenario.duration),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
+          body_(scenario.bodies[index]),
           ball_(ballOf(scenario, index)),
           plane_(planeOf(scenario, floor, ball_.center)) {
         const std::string subject = bodyTitle(scenario, index);

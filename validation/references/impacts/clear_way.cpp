@@ -85,10 +85,10 @@ void requireClearWay(const Scenario& scenario, const Reference& reference) {
     // Bodies that the reference does not know stay where they are, as long as nothing acts on them.
     std::vector<bool> placed(scenario.bodies.size());
     for (int i = 0; i < size; ++i) {
-        const Body& body = scenario.bodies[static_cast<std::size_t>(i)];
+        const Body& body = scenario.bodies[i];
         const bool still = body.velocity == Vec3{} && body.angularVelocity == Vec3{};
         const bool left = body.type != BodyType::Dynamic || gravityOn(scenario, i) == Vec3{};
-        placed[static_cast<std::size_t>(i)] = knows(i) || (still && left);
+        placed[i] = knows(i) || (still && left);
     }
     const double end = std::min(scenario.duration, reference.validUntil());
     for (int k = 0; k <= kSamples; ++k) {

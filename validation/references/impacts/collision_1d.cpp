@@ -54,12 +54,7 @@ class Collision1d : public Reference {
         result.push_back(std::move(time));
         for (const int i : bodies()) {
             const double after = sign * line_.velocityAfter(i);
-            Quantity q{"velocity_" + scenario_.bodies[static_cast<std::size_t>(i)].name,
-                       "m/s",
-                       after,
-                       after,
-                       closing,
-                       {}};
+            Quantity q{"velocity_" + scenario_.bodies[i].name, "m/s", after, after, closing, {}};
             q.measure = [=](const Trajectory& run) -> std::optional<double> {
                 const std::size_t end = run.frames() - 1;
                 return dot(d, run.state(end, i).velocity - run.times[end] * g);
@@ -71,7 +66,7 @@ class Collision1d : public Reference {
             const std::size_t end = run.frames() - 1;
             double sum = 0.0;
             for (const int i : bodies()) {
-                const double m = scenario_.bodies[static_cast<std::size_t>(i)].massProperties.mass;
+                const double m = scenario_.bodies[i].massProperties.mass;
                 const double before = dot(d, run.state(0, i).velocity);
                 const double after = dot(d, run.state(end, i).velocity - run.times[end] * g);
                 sum += 0.5 * m * (before * before - after * after);
@@ -83,13 +78,11 @@ class Collision1d : public Reference {
     }
 
   private:
-    bool isDynamic(int i) const {
-        return scenario_.bodies[static_cast<std::size_t>(i)].type == scenario::BodyType::Dynamic;
-    }
+    bool isDynamic(int i) const { return scenario_.bodies[i].type == scenario::BodyType::Dynamic; }
     /// Kinetic energy of the relative motion: all that an impact can take.
     double kineticScale(double closing) const {
-        const double ma = scenario_.bodies[static_cast<std::size_t>(a_)].massProperties.mass;
-        const double mb = scenario_.bodies[static_cast<std::size_t>(b_)].massProperties.mass;
+        const double ma = scenario_.bodies[a_].massProperties.mass;
+        const double mb = scenario_.bodies[b_].massProperties.mass;
         const double reduced = !isDynamic(a_) ? mb : (!isDynamic(b_) ? ma : ma * mb / (ma + mb));
         return 0.5 * reduced * closing * closing;
     }

@@ -54,7 +54,7 @@ class Dominoes : public Reference {
 
     PartialState exact(int body, double t) const override {
         if (body == bodies_.front()) return frame_.lift(motion_.at(std::min(t, time_)));
-        const Body& b = scenario_.bodies[static_cast<std::size_t>(body)];
+        const Body& b = scenario_.bodies[body];
         return stateOf(b, centerOfMass(b), b.pose.orientation, {}, {});
     }
 
@@ -75,8 +75,7 @@ class Dominoes : public Reference {
   private:
     /// The face of the second box that faces the first, and the corners of the first.
     void findFace(int floor) {
-        const Body &first = scenario_.bodies[static_cast<std::size_t>(bodies_[0])],
-                   &second = scenario_.bodies[static_cast<std::size_t>(bodies_[1])];
+        const Body &first = scenario_.bodies[bodies_[0]], &second = scenario_.bodies[bodies_[1]];
         const auto *a = std::get_if<scenario::Box>(&first.shapes.at(0).geometry),
                    *b = std::get_if<scenario::Box>(&second.shapes.at(0).geometry);
         require(a && b && first.shapes.size() == 1 && second.shapes.size() == 1,

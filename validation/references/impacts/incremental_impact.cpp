@@ -173,7 +173,7 @@ class IncrementalImpact : public Reference {
         return setup;
     }
     std::pair<Real, Real> contactOf(int corner, const PlanarMotion::State& at) const {
-        const auto& c = frame_.setup().corners[static_cast<std::size_t>(corner)];
+        const auto& c = frame_.setup().corners[corner];
         const Real cs = std::cos(at.angle), sn = std::sin(at.angle);
         return {cs * c.along - sn * c.above, sn * c.along + cs * c.above - c.radius};
     }
@@ -193,7 +193,7 @@ class IncrementalImpact : public Reference {
         const auto at = flown(t);
         Real lowest = 1e300L;
         for (std::size_t c = 0; c < frame_.setup().corners.size(); ++c)
-            lowest = std::min(lowest, at.z + contactOf(static_cast<int>(c), at).second);
+            lowest = std::min(lowest, at.z + contactOf(c, at).second);
         return static_cast<double>(-lowest - 1e-9L * frame_.setup().size);
     }
     void findNextTouch() {

@@ -32,7 +32,7 @@ double reach(const Shape& shape, Quat bodyOrientation, Vec3 d, int dimension, co
 LineCollisions::LineCollisions(const Scenario& scenario, std::vector<int> bodies, bool gapsNeeded)
     : scenario_(scenario), bodies_(std::move(bodies)) {
     require(bodies_.size() >= 2, "a collision needs two bodies");
-    const auto body = [&](int i) -> const Body& { return scenario.bodies[static_cast<std::size_t>(i)]; };
+    const auto body = [&](int i) -> const Body& { return scenario.bodies[i]; };
     // The line: through the two outermost moving centres, or along the velocity where a wall is hit.
     int first = kNone;
     for (const int i : bodies_)
@@ -177,11 +177,11 @@ void LineCollisions::run(double end) {
 }
 
 std::size_t LineCollisions::slot(int body) const {
-    return static_cast<std::size_t>(std::find(bodies_.begin(), bodies_.end(), body) - bodies_.begin());
+    return std::find(bodies_.begin(), bodies_.end(), body) - bodies_.begin();
 }
 
 PartialState LineCollisions::exact(int index, double t) const {
-    const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+    const Body& body = scenario_.bodies[index];
     const auto after = std::upper_bound(phases_.begin(), phases_.end(), t,
                                         [](double v, const Phase& p) { return v < p.start; });
     const Phase& phase = after == phases_.begin() ? phases_.front() : *(after - 1);

@@ -24,8 +24,7 @@ class NewtonsCradle : public Reference {
     std::vector<int> bodies() const override {
         std::vector<int> result;
         for (const int i : line_.bodies())
-            if (scenario_.bodies[static_cast<std::size_t>(i)].type == scenario::BodyType::Dynamic)
-                result.push_back(i);
+            if (scenario_.bodies[i].type == scenario::BodyType::Dynamic) result.push_back(i);
         return result;
     }
     double validUntil() const override { return line_.validUntil(); }
@@ -38,12 +37,7 @@ class NewtonsCradle : public Reference {
         for (const int i : bodies()) fastest = std::max(fastest, std::abs(line_.velocityBefore(i)));
         for (const int i : bodies()) {
             const double after = line_.velocityAfter(i);
-            Quantity q{"velocity_" + scenario_.bodies[static_cast<std::size_t>(i)].name,
-                       "m/s",
-                       after,
-                       after,
-                       fastest,
-                       {}};
+            Quantity q{"velocity_" + scenario_.bodies[i].name, "m/s", after, after, fastest, {}};
             q.measure = [d = line_.direction(), g = line_.gravity(),
                          i](const Trajectory& run) -> std::optional<double> {
                 const std::size_t end = run.frames() - 1;

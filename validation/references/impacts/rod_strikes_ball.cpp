@@ -72,7 +72,7 @@ class RodStrikesBall : public Reference {
     double validUntil() const override { return validUntil_; }
 
     PartialState exact(int body, double t) const override {
-        const Body& b = scenario_.bodies[static_cast<std::size_t>(body)];
+        const Body& b = scenario_.bodies[body];
         const bool hit = t >= time_;
         return stateOf(b, ball_.center + std::max(0.0, t - time_) * velocity_, b.pose.orientation,
                        hit ? velocity_ : Vec3{}, {});
@@ -81,7 +81,7 @@ class RodStrikesBall : public Reference {
     std::vector<Quantity> quantities(double, adapter::Scheme) const override {
         if (time_ >= scenario_.duration || validUntil_ < scenario_.duration) return {};
         const auto last = [this](const Trajectory& run) { return run.state(run.frames() - 1, ball_.body); };
-        const Body& b = scenario_.bodies[static_cast<std::size_t>(ball_.body)];
+        const Body& b = scenario_.bodies[ball_.body];
         Quantity time{"impact_time", "s", time_, {}, 0.0, {}};
         time.measure = [this, last, &b](const Trajectory& run) -> std::optional<double> {
             const auto end = last(run);

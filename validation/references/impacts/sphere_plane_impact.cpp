@@ -22,7 +22,7 @@ class SpherePlaneImpact : public Reference {
   public:
     SpherePlaneImpact(const Scenario& scenario, int index, int floor)
         : duration_(scenario.duration),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
+          body_(scenario.bodies[index]),
           ball_(ballOf(scenario, index)),
           plane_(planeOf(scenario, floor, ball_.center)),
           gravity_(gravityOn(scenario, index)) {

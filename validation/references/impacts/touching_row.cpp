@@ -58,7 +58,7 @@ class TouchingRow : public Reference {
         const std::size_t i = slot(body);
         const double first = std::min(t, time_), then = std::max(0.0, t - time_);
         const double speed = t < time_ ? before_[i] : after_[i];
-        const Body& b = scenario_.bodies[static_cast<std::size_t>(body)];
+        const Body& b = scenario_.bodies[body];
         return stateOf(b, row_[i].center + (before_[i] * first + after_[i] * then) * line_,
                        b.pose.orientation, speed * line_, {});
     }
@@ -68,12 +68,7 @@ class TouchingRow : public Reference {
         if (time_ >= scenario_.duration) return result;
         for (std::size_t i = 0; i < row_.size(); ++i) {
             const int body = row_[i].body;
-            Quantity q{"velocity_" + scenario_.bodies[static_cast<std::size_t>(body)].name,
-                       "m/s",
-                       after_[i],
-                       after_[i],
-                       fastest_,
-                       {}};
+            Quantity q{"velocity_" + scenario_.bodies[body].name, "m/s", after_[i], after_[i], fastest_, {}};
             q.measure = [d = line_, body](const Trajectory& run) -> std::optional<double> {
                 return dot(d, run.state(run.frames() - 1, body).velocity);
             };
@@ -129,16 +124,15 @@ class TouchingRow : public Reference {
             numerics::Matrix m(size, size);
             numerics::Vector right(size);
             for (Eigen::Index a = 0; a < size; ++a) {
-                const std::size_t i = on[static_cast<std::size_t>(a)];
-                for (Eigen::Index b = 0; b < size; ++b)
-                    m(a, b) = coupling(i, on[static_cast<std::size_t>(b)]);
+                const std::size_t i = on[a];
+                for (Eigen::Index b = 0; b < size; ++b) m(a, b) = coupling(i, on[b]);
                 right[a] = -(1 + bounce[i]) * apart[i];
             }
             std::vector<Real> push(n, 0);
             if (size > 0) {
                 const auto p = numerics::solveDense(m, right);
                 if (!p) continue;
-                for (std::size_t a = 0; a < on.size(); ++a) push[on[a]] = (*p)[static_cast<Eigen::Index>(a)];
+                for (std::size_t a = 0; a < on.size(); ++a) push[on[a]] = (*p)[a];
             }
             bool fits = true;
             for (std::size_t i = 0; i < n; ++i) {

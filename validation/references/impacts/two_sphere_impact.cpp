@@ -32,7 +32,7 @@ class TwoSphereImpact : public Reference {
         requireContact(scenario, a, b);
         for (auto& p : partners_) {
             requireUndisturbed(scenario, p.ball.body);
-            p.body = &scenario.bodies[static_cast<std::size_t>(p.ball.body)];
+            p.body = &scenario.bodies[p.ball.body];
         }
         gravity_ = gravityOn(scenario, a);
         require(negligible(norm(gravityOn(scenario, b) - gravity_), norm(gravity_)),

@@ -23,16 +23,15 @@ class BreakingJoint : public Reference {
     BreakingJoint(const Scenario& scenario, int index, int jointIndex)
         : scenario_(scenario),
           index_(index),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
-          joint_(scenario.joints[static_cast<std::size_t>(jointIndex)]) {
+          body_(scenario.bodies[index]),
+          joint_(scenario.joints[jointIndex]) {
         requireUndisturbed(scenario, index, {.joints = true, .constantForces = true});
         for (const auto& other : scenario.joints)
             require(&other == &joint_ || (other.bodyA != index && other.bodyB != index),
                     "joint '" + other.name + "' also holds " + bodyTitle(scenario, index));
         const int other = joint_.bodyA == index ? joint_.bodyB : joint_.bodyA;
         require(
-            other == scenario::kNone ||
-                scenario.bodies[static_cast<std::size_t>(other)].type == scenario::BodyType::Static,
+            other == scenario::kNone || scenario.bodies[other].type == scenario::BodyType::Static,
             "joint '" + joint_.name + "' does not hold " + bodyTitle(scenario, index) + " to a fixed point");
         require(body_.velocity == Vec3{} && body_.angularVelocity == Vec3{},
                 bodyTitle(scenario, index) + " is not at rest at the start");

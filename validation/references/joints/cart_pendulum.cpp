@@ -62,11 +62,11 @@ class CartPendulum : public Reference {
     }
 
   private:
-    const Body& cart() const { return scenario_.bodies[static_cast<std::size_t>(cart_)]; }
-    const Body& pendulum() const { return scenario_.bodies[static_cast<std::size_t>(pendulum_)]; }
+    const Body& cart() const { return scenario_.bodies[cart_]; }
+    const Body& pendulum() const { return scenario_.bodies[pendulum_]; }
     Vec3 railIn2d(const scenario::Joint& rail) const {
         if (rail.bodyA == scenario::kNone) return rail.axisA;
-        return rotate(scenario_.bodies[static_cast<std::size_t>(rail.bodyA)].pose.orientation, rail.axisA);
+        return rotate(scenario_.bodies[rail.bodyA].pose.orientation, rail.axisA);
     }
     Real3 armAt(Real angle) const {
         return turnedAbout(real3(axis_), std::cos(angle), std::sin(angle), real3(arm_));

@@ -37,7 +37,7 @@ class HangingChain : public Reference {
     PartialState exact(int index, double) const override {
         for (const Link& link : links_)
             if (link.body == index) {
-                const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+                const Body& body = scenario_.bodies[index];
                 return stateOf(body, link.center, body.pose.orientation, {}, {});
             }
         throw std::invalid_argument("hanging_chain: unknown body");
@@ -67,8 +67,7 @@ class HangingChain : public Reference {
         Vec3 center, end;  ///< places where they hang
     };
     bool isFixed(int body) const {
-        return body == kNone ||
-               scenario_.bodies[static_cast<std::size_t>(body)].type == scenario::BodyType::Static;
+        return body == kNone || scenario_.bodies[body].type == scenario::BodyType::Static;
     }
 
     /// Follows the joints from the world and back to it.
@@ -106,7 +105,7 @@ class HangingChain : public Reference {
         require(!isFixed(index), "the chain ends before all its links");
         requireUndisturbed(scenario_, index, {.joints = true});
         requireStill(scenario_, index);
-        const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+        const Body& body = scenario_.bodies[index];
         const Vec3 arm = to - from, com = centerOfMass(body) - from;
         Link link;
         link.body = index;
@@ -175,7 +174,7 @@ class HangingChain : public Reference {
 
     void placeLinks() const {
         for (const Link& link : links_) {
-            const Body& body = scenario_.bodies[static_cast<std::size_t>(link.body)];
+            const Body& body = scenario_.bodies[link.body];
             const double off = norm(centerOfMass(body) - link.center);
             require(off <= 1e-6 * static_cast<double>(link.length),
                     bodyTitle(scenario_, link.body) + " does not start where it hangs, " +

@@ -101,7 +101,7 @@ class HookeJoint : public Reference {
         double angle = 0.0, rate = 0.0, swingRate = 0.0;
         Vec3 c, d;
     };
-    const Body& body(int index) const { return scenario_.bodies[static_cast<std::size_t>(index)]; }
+    const Body& body(int index) const { return scenario_.bodies[index]; }
     /// The point of the line nearest to the centre of the joint.
     Vec3 onLine(Vec3 p, Vec3 direction) const { return p + dot(direction, center_ - p) * direction; }
 

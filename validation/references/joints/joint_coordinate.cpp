@@ -161,13 +161,12 @@ class JointCoordinate : public Reference {
     JointCoordinate(const Scenario& scenario, int index, int jointIndex)
         : scenario_(scenario),
           index_(index),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
-          joint_(scenario.joints[static_cast<std::size_t>(jointIndex)]) {
+          body_(scenario.bodies[index]),
+          joint_(scenario.joints[jointIndex]) {
         requireOnlyJoints(scenario, index, {&joint_});
         const int other = joint_.bodyA == index ? joint_.bodyB : joint_.bodyA;
         require(
-            other == scenario::kNone ||
-                scenario.bodies[static_cast<std::size_t>(other)].type == scenario::BodyType::Static,
+            other == scenario::kNone || scenario.bodies[other].type == scenario::BodyType::Static,
             "joint '" + joint_.name + "' does not hold " + bodyTitle(scenario, index) + " to a fixed point");
         require(joint_.breakForce > 1e299 && joint_.breakTorque > 1e299,
                 "joint '" + joint_.name + "' may break");
@@ -260,7 +259,7 @@ class JointCoordinate : public Reference {
 
     Vec3 inWorld(int body, Vec3 local) const {
         if (body == scenario::kNone) return local;
-        return rotate(scenario_.bodies[static_cast<std::size_t>(body)].pose.orientation, local);
+        return rotate(scenario_.bodies[body].pose.orientation, local);
     }
     /// Axis as in the file, also in 2D where axisOf() is +z.
     Vec3 axisOf3d() const { return unit(inWorld(joint_.bodyA, joint_.axisA)); }

@@ -14,13 +14,13 @@ using scenario::kNone;
 
 Vec3 anchorOf(const Scenario& scenario, const scenario::Joint& joint, int body) {
     const Vec3 local = joint.bodyA == body ? joint.anchorA : joint.anchorB;
-    return body == kNone ? local : scenario.bodies[static_cast<std::size_t>(body)].pose * local;
+    return body == kNone ? local : scenario.bodies[body].pose * local;
 }
 
 Vec3 axisOf(const Scenario& scenario, const scenario::Joint& joint) {
     if (scenario.dimension == 2) return {0, 0, 1};
     if (joint.bodyA == kNone) return unit(joint.axisA);
-    return unit(rotate(scenario.bodies[static_cast<std::size_t>(joint.bodyA)].pose.orientation, joint.axisA));
+    return unit(rotate(scenario.bodies[joint.bodyA].pose.orientation, joint.axisA));
 }
 
 void requirePassive(const scenario::Joint& joint, bool limitsAllowed) {
@@ -30,24 +30,23 @@ void requirePassive(const scenario::Joint& joint, bool limitsAllowed) {
 }
 
 FixedJoint fixedJoint(const Scenario& scenario, int index, int body, bool limitsAllowed) {
-    const auto& joint = scenario.joints[static_cast<std::size_t>(index)];
+    const auto& joint = scenario.joints[index];
     requirePassive(joint, limitsAllowed);
     require(joint.bodyA == body || joint.bodyB == body,
             "joint '" + joint.name + "' does not hold " + bodyTitle(scenario, body));
     const int other = joint.bodyA == body ? joint.bodyB : joint.bodyA;
-    require(other == kNone || scenario.bodies[static_cast<std::size_t>(other)].type == BodyType::Static,
+    require(other == kNone || scenario.bodies[other].type == BodyType::Static,
             "joint '" + joint.name + "' does not hold " + bodyTitle(scenario, body) + " to a fixed point");
     FixedJoint fixed{&joint, anchorOf(scenario, joint, other), axisOf(scenario, joint)};
     const Vec3 own = anchorOf(scenario, joint, body);
-    const double arm = norm(own - centerOfMass(scenario.bodies[static_cast<std::size_t>(body)]));
-    require(
-        norm(own - fixed.anchor) <= 1e-6 * (arm + sizeOf(scenario.bodies[static_cast<std::size_t>(body)])),
-        "the anchors of joint '" + joint.name + "' are apart");
+    const double arm = norm(own - centerOfMass(scenario.bodies[body]));
+    require(norm(own - fixed.anchor) <= 1e-6 * (arm + sizeOf(scenario.bodies[body])),
+            "the anchors of joint '" + joint.name + "' are apart");
     return fixed;
 }
 
 void requireTurnsAbout(const Scenario& scenario, int index, Vec3 anchor) {
-    const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
+    const Body& body = scenario.bodies[index];
     const Vec3 arm = centerOfMass(body) - anchor, expected = cross(body.angularVelocity, arm);
     // A spin about the arm moves the centre of mass only by rounding: the scale is |w||r|, not |w x r|.
     const double fast = std::max(norm(body.velocity), norm(body.angularVelocity) * norm(arm)),

@@ -47,16 +47,16 @@ class Mechanism : public Reference {
 
     PartialState exact(int body, double t) const override {
         const OdeState y = solution_.at(t);
-        const Real* s = &y[MechanismMotion::kStride * static_cast<std::size_t>(slotOf(body))];
+        const Real* s = &y[MechanismMotion::kStride * slotOf(body)];
         const auto d = [&](std::size_t i) { return static_cast<double>(s[i]); };
         const Quat q = scenario::normalized(Quat{d(3), d(4), d(5), d(6)});
-        return stateOf(scenario_.bodies[static_cast<std::size_t>(body)], {d(0), d(1), d(2)}, q,
-                       {d(7), d(8), d(9)}, rotate(q, {d(10), d(11), d(12)}));
+        return stateOf(scenario_.bodies[body], {d(0), d(1), d(2)}, q, {d(7), d(8), d(9)},
+                       rotate(q, {d(10), d(11), d(12)}));
     }
 
   private:
-    const Body& body(int index) const { return scenario_.bodies[static_cast<std::size_t>(index)]; }
-    int slotOf(int index) const { return index == kNone ? -1 : slot_[static_cast<std::size_t>(index)]; }
+    const Body& body(int index) const { return scenario_.bodies[index]; }
+    int slotOf(int index) const { return index == kNone ? -1 : slot_[index]; }
     bool isGiven(int index) const { return index == kNone || body(index).type == BodyType::Static; }
 
     void addMember(int index) {
@@ -64,7 +64,7 @@ class Mechanism : public Reference {
         const bool driven = b.type != BodyType::Dynamic;
         if (!driven)
             requireUndisturbed(scenario_, index, {.joints = true, .springs = true, .constantForces = true});
-        slot_[static_cast<std::size_t>(index)] = static_cast<int>(motion_.members.size());
+        slot_[index] = motion_.members.size();
         MechanismMotion::Member m;
         m.driven = driven;
         m.mass = driven ? 1 : b.massProperties.mass;
@@ -103,7 +103,7 @@ class Mechanism : public Reference {
         include(joint.bodyB);
         requirePassive(joint);
         Equation e;
-        e.joint = static_cast<int>(&joint - scenario_.joints.data());
+        e.joint = &joint - scenario_.joints.data();
         e.a = point(joint.bodyA, joint.anchorA);
         e.b = point(joint.bodyB, joint.anchorB);
         const Vec3 axis = axisOf(scenario_, joint), t = perpendicular(axis), u = cross(axis, t);

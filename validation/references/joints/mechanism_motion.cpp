@@ -69,22 +69,20 @@ std::vector<MechanismMotion::Pose> MechanismMotion::posesOf(const OdeState& y) c
 
 MechanismMotion::Spot MechanismMotion::spotOf(const std::vector<Pose>& poses, const Fixed& point) {
     if (point.body < 0) return {{}, point.local, {}, {}};
-    const Pose& p = poses[static_cast<std::size_t>(point.body)];
+    const Pose& p = poses[point.body];
     const Real3 arm = p.turn * point.local, whirl = cross(p.spin, arm);
     return {arm, p.place + arm, p.velocity + whirl, cross(p.spin, whirl)};
 }
 
 Real3 MechanismMotion::turned(const std::vector<Pose>& poses, int body, Real3 local) {
-    return body < 0 ? local : poses[static_cast<std::size_t>(body)].turn * local;
+    return body < 0 ? local : poses[body].turn * local;
 }
 
 MechanismMotion::Row MechanismMotion::rowOf(const std::vector<Pose>& poses, const Equation& e) const {
     Row row;
     row.a = e.a.body;
     row.b = e.b.body;
-    const auto spinOf = [&](int body) {
-        return body < 0 ? Real3{} : poses[static_cast<std::size_t>(body)].spin;
-    };
+    const auto spinOf = [&](int body) { return body < 0 ? Real3{} : poses[body].spin; };
     const Real3 wa = spinOf(e.a.body), wb = spinOf(e.b.body);
     if (e.kind == Equation::Kind::Direction) {
         const Real3 t = turned(poses, e.a.body, e.axis), n = turned(poses, e.b.body, e.b.local);

@@ -18,7 +18,7 @@ namespace {
 class MotorPair : public Reference {
   public:
     MotorPair(const Scenario& scenario, int jointIndex) : scenario_(scenario) {
-        const auto& joint = scenario.joints[static_cast<std::size_t>(jointIndex)];
+        const auto& joint = scenario.joints[jointIndex];
         require(joint.type == scenario::JointType::Hinge, "joint '" + joint.name + "' is not a hinge");
         for (const std::string& feature : joint.features())
             require(feature == "motor", "joint '" + joint.name + "' has a " + feature);
@@ -77,7 +77,7 @@ class MotorPair : public Reference {
     }
 
   private:
-    const Body& body(int index) const { return scenario_.bodies[static_cast<std::size_t>(index)]; }
+    const Body& body(int index) const { return scenario_.bodies[index]; }
     double rateOf(int index) const { return index == a_ ? -torque_ / momentA_ : torque_ / momentB_; }
 
     void check(const scenario::Joint& joint, int index) {
@@ -113,7 +113,7 @@ std::unique_ptr<Reference> makeMotorPair(const Scenario& scenario, const scenari
     const Parts parts(scenario, spec, {"joint"});
     int body = scenario::kNone;
     for (int i = 0; i < static_cast<int>(scenario.bodies.size()) && body == scenario::kNone; ++i)
-        if (scenario.bodies[static_cast<std::size_t>(i)].type == scenario::BodyType::Dynamic) body = i;
+        if (scenario.bodies[i].type == scenario::BodyType::Dynamic) body = i;
     return std::make_unique<MotorPair>(scenario, parts.joint("joint", body));
 }
 

@@ -30,7 +30,7 @@ class ParallelBars : public Reference {
         findCranks();
         checkPins();
         const int crank = bodies_[cranks_.front().slot];
-        rate_ = dot(scenario.bodies[static_cast<std::size_t>(crank)].angularVelocity, axis_);
+        rate_ = dot(scenario.bodies[crank].angularVelocity, axis_);
         Vec3 weighted;  // sum of m |g| times the arm that turns with the angle
         double moment = 0.0;
         const Vec3 g = gravityOn(scenario, crank), pull = g - dot(g, axis_) * axis_;
@@ -43,7 +43,7 @@ class ParallelBars : public Reference {
     std::vector<int> bodies() const override { return bodies_; }
 
     PartialState exact(int index, double t) const override {
-        const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+        const Body& body = scenario_.bodies[index];
         const auto state = swing_.at(t);
         const Vec3 w = static_cast<double>(state.rate) * axis_;
         const Quat turn = scenario::fromAxisAngle(axis_, static_cast<double>(state.angle) - start_);
@@ -77,8 +77,7 @@ class ParallelBars : public Reference {
         return nullptr;
     }
     bool isFixed(int body) const {
-        return body == kNone ||
-               scenario_.bodies[static_cast<std::size_t>(body)].type == scenario::BodyType::Static;
+        return body == kNone || scenario_.bodies[body].type == scenario::BodyType::Static;
     }
 
     void findCranks() {
@@ -114,10 +113,10 @@ class ParallelBars : public Reference {
             arm = arm - dot(arm, axis_) * axis_;
             if (arm_ == Vec3{}) arm_ = arm;
             require(norm(arm - arm_) <= 1e-9 * norm(arm_), "the cranks are not parallel and of one length");
-            ++held[static_cast<std::size_t>(bar)];
+            ++held[bar];
         }
         for (const int body : bodies_)
-            require(crankOf(body) != nullptr || held[static_cast<std::size_t>(body)] >= 2,
+            require(crankOf(body) != nullptr || held[body] >= 2,
                     bodyTitle(scenario_, body) + " does not hang on two cranks");
     }
 
@@ -146,7 +145,7 @@ class ParallelBars : public Reference {
     /// Time between the first two passages of the first crank through the lowest point, the same way.
     std::optional<double> measuredPeriod(const Trajectory& run) const {
         const int body = bodies_[cranks_.front().slot];
-        const Quat first = scenario_.bodies[static_cast<std::size_t>(body)].pose.orientation;
+        const Quat first = scenario_.bodies[body].pose.orientation;
         const double sign = swing_.parameter() > 1 && rate_ < 0.0 ? -1.0 : 1.0;
         const auto tilt = [&](std::size_t k) {
             const Quat turn = run.state(k, body).orientation * scenario::conjugate(first);

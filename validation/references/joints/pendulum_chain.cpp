@@ -65,10 +65,9 @@ void derivative(const std::vector<Link>& links, Point gravity, const OdeState& y
         for (std::size_t k = 0; k <= i; ++k) {
             const auto row = static_cast<Eigen::Index>(k);
             force[row] += links[i].mass * turnOf(arm(k), push);
-            for (std::size_t j = 0; j <= i; ++j)
-                mass(row, static_cast<Eigen::Index>(j)) += links[i].mass * dotOf(arm(j), arm(k));
+            for (std::size_t j = 0; j <= i; ++j) mass(row, j) += links[i].mass * dotOf(arm(j), arm(k));
         }
-        mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += links[i].inertia;
+        mass(i, i) += links[i].inertia;
     }
     const auto acceleration = numerics::solveDense(std::move(mass), std::move(force));
     if (!acceleration) {
@@ -78,7 +77,7 @@ void derivative(const std::vector<Link>& links, Point gravity, const OdeState& y
     }
     for (std::size_t j = 0; j < n; ++j) {
         d[j] = y[n + j];
-        d[n + j] = (*acceleration)[static_cast<Eigen::Index>(j)];
+        d[n + j] = (*acceleration)[j];
     }
 }
 
@@ -106,7 +105,7 @@ class PendulumChain : public Reference {
         }
         if (reach > 0) turns += std::sqrt(norm(g) / reach);
         OdeState beside(2 * n, 1);
-        std::fill(beside.begin() + static_cast<std::ptrdiff_t>(n), beside.end(), turns);
+        std::fill(beside.begin() + n, beside.end(), turns);
         numerics::OdeLimits limits;
         limits.neighbour = 1e-12L;
         limits.evaluations = kChainOperations / (300 + 100 * n * n + 5 * n * n * n);
@@ -134,7 +133,7 @@ class PendulumChain : public Reference {
             const auto rate = static_cast<double>(y[n + i]);
             const auto place = [&](Point p) { return lift(rotated(p, y[i])); };
             if (link.body == body) {
-                const Body& b = scenario_.bodies[static_cast<std::size_t>(body)];
+                const Body& b = scenario_.bodies[body];
                 const Vec3 arm = place(link.toCenter);
                 const Quat q = scenario::fromAxisAngle(axis_, static_cast<double>(y[i]));
                 return stateOf(b, hinge + arm + link.offPlaneCenter,
@@ -161,8 +160,7 @@ class PendulumChain : public Reference {
                 if (joint.bodyA != order[i] && joint.bodyB != order[i]) continue;
                 const int other = joint.bodyA == order[i] ? joint.bodyB : joint.bodyA;
                 const bool fixed =
-                    other == scenario::kNone ||
-                    scenario_.bodies[static_cast<std::size_t>(other)].type == scenario::BodyType::Static;
+                    other == scenario::kNone || scenario_.bodies[other].type == scenario::BodyType::Static;
                 const bool before = i == 0 ? fixed : other == order[i - 1];
                 const bool after = i + 1 < order.size() && other == order[i + 1];
                 require(before || after, "joint '" + joint.name + "' is not part of the chain");
@@ -197,8 +195,7 @@ class PendulumChain : public Reference {
                 for (const auto* joint : joints_)
                     for (const int body : {joint->bodyA, joint->bodyB}) {
                         if (body == scenario::kNone || axis_ != Vec3{}) continue;
-                        const Vec3 arm =
-                            centerOfMass(scenario_.bodies[static_cast<std::size_t>(body)]) - anchor_;
+                        const Vec3 arm = centerOfMass(scenario_.bodies[body]) - anchor_;
                         const Vec3 n = cross(scenario_.gravity, arm);
                         if (!negligible(norm(n), norm(scenario_.gravity) * norm(arm))) axis_ = unit(n);
                     }
@@ -256,8 +253,7 @@ class PendulumChain : public Reference {
 /// The links in order, found by following the joints from the fixed one.
 std::vector<int> followJoints(const Scenario& scenario) {
     const auto fixed = [&](int b) {
-        return b == scenario::kNone ||
-               scenario.bodies[static_cast<std::size_t>(b)].type == scenario::BodyType::Static;
+        return b == scenario::kNone || scenario.bodies[b].type == scenario::BodyType::Static;
     };
     std::vector<int> order;
     std::vector<bool> used(scenario.joints.size(), false);

@@ -23,7 +23,7 @@ class PhysicalPendulum : public Reference {
     PhysicalPendulum(const Scenario& scenario, int index, int jointIndex)
         : duration_(scenario.duration),
           index_(index),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
+          body_(scenario.bodies[index]),
           hinge_(fixedJoint(scenario, jointIndex, index, true)) {
         const auto type = hinge_.joint->type;
         const bool swings = scenario.dimension == 3 && hinge_.joint->features().size() == 1 &&

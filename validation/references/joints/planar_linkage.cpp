@@ -101,15 +101,14 @@ class PlanarLinkage : public Reference {
     }
 
   private:
-    const Body& bodyOf(int i) const { return scenario_.bodies[static_cast<std::size_t>(links_[i])]; }
+    const Body& bodyOf(int i) const { return scenario_.bodies[links_[i]]; }
     PlanePoint flat(Vec3 p) const { return {dot(p, e1_), dot(p, e2_)}; }
     bool isFixed(int body) const {
-        return body == scenario::kNone ||
-               scenario_.bodies[static_cast<std::size_t>(body)].type == scenario::BodyType::Static;
+        return body == scenario::kNone || scenario_.bodies[body].type == scenario::BodyType::Static;
     }
     Vec3 worldOf(const scenario::Joint& joint, Vec3 local) const {
         if (joint.bodyA == scenario::kNone) return unit(local);
-        return unit(rotate(scenario_.bodies[static_cast<std::size_t>(joint.bodyA)].pose.orientation, local));
+        return unit(rotate(scenario_.bodies[joint.bodyA].pose.orientation, local));
     }
 
     /// joints_: ground and crank, crank and coupler, coupler and rocker, rocker and ground; no others.

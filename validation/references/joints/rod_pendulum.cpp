@@ -22,8 +22,8 @@ using numerics::Real;
 class RodPendulum : public Reference {
   public:
     RodPendulum(const Scenario& scenario, int index, int jointIndex)
-        : index_(index), body_(scenario.bodies[static_cast<std::size_t>(index)]) {
-        const auto& joint = scenario.joints[static_cast<std::size_t>(jointIndex)];
+        : index_(index), body_(scenario.bodies[index]) {
+        const auto& joint = scenario.joints[jointIndex];
         require(joint.type == scenario::JointType::Distance,
                 "joint '" + joint.name + "' is not a distance joint");
         requireOnlyJoints(scenario, index, {&joint});
@@ -31,8 +31,7 @@ class RodPendulum : public Reference {
             require(feature == "limit", "joint '" + joint.name + "' has a " + feature);
         const int other = joint.bodyA == index ? joint.bodyB : joint.bodyA;
         require(
-            other == scenario::kNone ||
-                scenario.bodies[static_cast<std::size_t>(other)].type == scenario::BodyType::Static,
+            other == scenario::kNone || scenario.bodies[other].type == scenario::BodyType::Static,
             "joint '" + joint.name + "' does not hold " + bodyTitle(scenario, index) + " to a fixed point");
         pivot_ = anchorOf(scenario, joint, other);
         const Vec3 x = centerOfMass(body_), arm = x - pivot_, v = body_.velocity;

@@ -27,18 +27,17 @@ using namespace numerics;
 class RotatingHinge : public Reference {
   public:
     RotatingHinge(const Scenario& scenario, int index, int jointIndex)
-        : scenario_(scenario), index_(index), body_(scenario.bodies[static_cast<std::size_t>(index)]) {
-        const auto& joint = scenario.joints[static_cast<std::size_t>(jointIndex)];
+        : scenario_(scenario), index_(index), body_(scenario.bodies[index]) {
+        const auto& joint = scenario.joints[jointIndex];
         require(scenario.dimension == 3, "a turning hinge needs three dimensions");
         require(joint.type == scenario::JointType::Hinge, "joint '" + joint.name + "' is not a hinge");
         requirePassive(joint);
         requireOnlyJoints(scenario, index, {&joint});
         const int other = joint.bodyA == index ? joint.bodyB : joint.bodyA;
-        require(other != scenario::kNone &&
-                    scenario.bodies[static_cast<std::size_t>(other)].type == scenario::BodyType::Kinematic,
+        require(other != scenario::kNone && scenario.bodies[other].type == scenario::BodyType::Kinematic,
                 "joint '" + joint.name + "' does not hold " + bodyTitle(scenario, index) +
                     " to a kinematic body");
-        const Body& shaft = scenario.bodies[static_cast<std::size_t>(other)];
+        const Body& shaft = scenario.bodies[other];
         require(shaft.velocity == Vec3{}, bodyTitle(scenario, other) + " moves away");
         turn_ = real3(shaft.angularVelocity);
         center_ = real3(centerOfMass(shaft));

@@ -20,7 +20,7 @@ class SphericalPendulum : public Reference {
   public:
     SphericalPendulum(const Scenario& scenario, int index, int jointIndex)
         : index_(index),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
+          body_(scenario.bodies[index]),
           joint_(fixedJoint(scenario, jointIndex, index)),
           motion_(build(scenario)) {}
     std::vector<int> bodies() const override { return {index_}; }

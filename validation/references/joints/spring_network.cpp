@@ -56,8 +56,7 @@ class SpringNetwork : public Reference {
             size = std::max(size, Real{sizeOf(at(i))});
             fast = std::max(fast, Real{norm(at(i).velocity)});
         }
-        for (const Tie& tie : ties_)
-            stiff = std::max(stiff, std::sqrt(tie.stiffness / masses_[static_cast<std::size_t>(tie.b)]));
+        for (const Tie& tie : ties_) stiff = std::max(stiff, std::sqrt(tie.stiffness / masses_[tie.b]));
         fast += size * stiff;
         OdeState beside;
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -125,7 +124,7 @@ class SpringNetwork : public Reference {
     }
 
   private:
-    const Body& at(std::size_t i) const { return scenario_.bodies[static_cast<std::size_t>(bodies_[i])]; }
+    const Body& at(std::size_t i) const { return scenario_.bodies[bodies_[i]]; }
     static Real3 get(const OdeState& y, std::size_t i) { return {y[3 * i], y[3 * i + 1], y[3 * i + 2]}; }
     static void put(OdeState& y, std::size_t i, Real3 v) {
         y[3 * i] = v.x;
@@ -146,7 +145,7 @@ class SpringNetwork : public Reference {
         const auto end = [&](int body, Vec3 anchor, int& place) {
             for (std::size_t i = 0; i < bodies_.size(); ++i)
                 if (bodies_[i] == body) {
-                    place = static_cast<int>(i);
+                    place = i;
                     require(norm(anchor - at(i).massProperties.centerOfMass) <= 1e-9 * sizeOf(at(i)),
                             "a spring does not pull at the centre of mass of " + bodyTitle(scenario_, body));
                 }
@@ -155,7 +154,7 @@ class SpringNetwork : public Reference {
                 tie.fixed = real3(anchor);
                 return;
             }
-            const Body& other = scenario_.bodies[static_cast<std::size_t>(body)];
+            const Body& other = scenario_.bodies[body];
             require(other.type == scenario::BodyType::Static,
                     "a spring leads to " + bodyTitle(scenario_, body) + ", which is neither fixed nor known");
             tie.fixed = real3(other.pose * anchor);

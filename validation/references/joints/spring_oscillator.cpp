@@ -37,10 +37,7 @@ Affine power(Affine base, std::size_t n) {
 class SpringOscillator : public Reference {
   public:
     SpringOscillator(const Scenario& scenario, int index)
-        : scenario_(scenario),
-          index_(index),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
-          com_(centerOfMass(body_)) {
+        : scenario_(scenario), index_(index), body_(scenario.bodies[index]), com_(centerOfMass(body_)) {
         requireUndisturbed(scenario, index, {.springs = true, .constantForces = true, .drag = true});
         require(body_.angularVelocity == Vec3{}, bodyTitle(scenario, index) + " spins");
         mass_ = body_.massProperties.mass;
@@ -99,12 +96,10 @@ class SpringOscillator : public Reference {
     void addSpring(const scenario::SpringForce& spring, Vec3& load, double& dampers, bool& lineNeeded) {
         const bool isB = spring.bodyB == index_;
         const int other = isB ? spring.bodyA : spring.bodyB;
-        require(other == scenario::kNone ||
-                    scenario_.bodies[static_cast<std::size_t>(other)].type == scenario::BodyType::Static,
+        require(other == scenario::kNone || scenario_.bodies[other].type == scenario::BodyType::Static,
                 "a spring joins " + bodyTitle(scenario_, index_) + " to a moving body");
         const Vec3 local = isB ? spring.anchorA : spring.anchorB, own = isB ? spring.anchorB : spring.anchorA;
-        const Vec3 anchor =
-            other == scenario::kNone ? local : scenario_.bodies[static_cast<std::size_t>(other)].pose * local;
+        const Vec3 anchor = other == scenario::kNone ? local : scenario_.bodies[other].pose * local;
         const Vec3 arm = com_ - anchor;
         require(norm(own - body_.massProperties.centerOfMass) <= 1e-9 * (norm(arm) + sizeOf(body_)),
                 "a spring pulls " + bodyTitle(scenario_, index_) + " beside its centre of mass");

@@ -18,8 +18,7 @@ constexpr int kRefactor = 100;      // pivots on one inverse
 
 }  // namespace
 
-LinearProgram::LinearProgram(std::vector<Real> right)
-    : rows_(static_cast<Eigen::Index>(right.size())), right_(rows_) {
+LinearProgram::LinearProgram(std::vector<Real> right) : rows_(right.size()), right_(rows_) {
     for (std::size_t i = 0; i < right.size(); ++i) {
         const auto row = static_cast<Eigen::Index>(i);
         right_[row] = right[i];
@@ -35,7 +34,7 @@ void LinearProgram::restart() {
     inverse_ = Matrix::Zero(rows_, rows_);
     for (std::size_t i = 0; i < basis_.size(); ++i) {
         basis_[i] = {true, i};
-        inverse_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) = sign_[i];
+        inverse_(i, i) = sign_[i];
     }
     value_ = right_.cwiseAbs();
     y_ = Vector::Zero(rows_);
@@ -57,12 +56,12 @@ bool LinearProgram::refactor(Phase phase, const std::vector<Real>& cost) {
     Matrix basis = Matrix::Zero(rows_, rows_);
     Vector prices(rows_);
     for (Eigen::Index i = 0; i < rows_; ++i) {
-        const Basic basic = basis_[static_cast<std::size_t>(i)];
+        const Basic basic = basis_[i];
         prices[i] = costOf(basic, phase, cost);
         if (basic.artificial) {
-            basis(static_cast<Eigen::Index>(basic.index), i) = sign_[basic.index];
+            basis(basic.index, i) = sign_[basic.index];
         } else {
-            for (const Entry& e : columns_[basic.index]) basis(static_cast<Eigen::Index>(e.row), i) = e.value;
+            for (const Entry& e : columns_[basic.index]) basis(e.row, i) = e.value;
         }
     }
     inverse_ = basis.partialPivLu().inverse();
@@ -84,7 +83,7 @@ std::size_t LinearProgram::entering(Phase phase, const std::vector<Real>& cost, 
         const Real own = phase == Phase::Cost ? cost[j] : 0;
         Real sum = own, size = std::abs(own) + largest;
         for (const Entry& e : columns_[j]) {
-            const Real term = y_[static_cast<Eigen::Index>(e.row)] * e.value;
+            const Real term = y_[e.row] * e.value;
             sum -= term;
             size += std::abs(term);
         }
@@ -135,7 +134,7 @@ LinearProgram::Status LinearProgram::run(Phase phase, const std::vector<Real>& c
         return refactor(phase, cost);
     };
     if (!rebuild()) return Status::Stalled;
-    const auto allowed = 1000 + 20 * (static_cast<std::size_t>(rows_) + columns_.size());
+    const auto allowed = 1000 + 20 * (rows_ + columns_.size());
     int onInverse = 0;
     for (std::size_t pivots = 0; pivots < allowed; ++pivots) {
         if (onInverse >= kRefactor) {
@@ -147,8 +146,7 @@ LinearProgram::Status LinearProgram::run(Phase phase, const std::vector<Real>& c
         Vector direction = Vector::Zero(rows_);
         Eigen::Index leave = rows_;
         if (enter != columns_.size()) {
-            for (const Entry& e : columns_[enter])
-                direction += e.value * inverse_.col(static_cast<Eigen::Index>(e.row));
+            for (const Entry& e : columns_[enter]) direction += e.value * inverse_.col(e.row);
             leave = leaving(phase, direction);
         }
         if (leave == rows_) {
@@ -164,7 +162,7 @@ LinearProgram::Status LinearProgram::run(Phase phase, const std::vector<Real>& c
         for (Eigen::Index i = 0; i < rows_; ++i)
             if (i != leave && direction[i] != 0) inverse_.row(i) -= direction[i] * inverse_.row(leave);
         y_ += reduced * inverse_.row(leave).transpose();
-        Basic& place = basis_[static_cast<std::size_t>(leave)];
+        Basic& place = basis_[leave];
         if (!place.artificial) inBasis_[place.index] = false;
         place = {false, enter};
         inBasis_[enter] = true;
@@ -185,14 +183,14 @@ Real LinearProgram::violation() const {
     Vector rest = -right_;
     const std::vector<Real> x = point();
     for (std::size_t j = 0; j < columns_.size(); ++j)
-        for (const Entry& e : columns_[j]) rest[static_cast<Eigen::Index>(e.row)] += x[j] * e.value;
+        for (const Entry& e : columns_[j]) rest[e.row] += x[j] * e.value;
     return rest.cwiseAbs().sum();
 }
 
 std::vector<Real> LinearProgram::point() const {
     std::vector<Real> x(columns_.size(), 0);
     for (Eigen::Index i = 0; i < rows_; ++i) {
-        const Basic basic = basis_[static_cast<std::size_t>(i)];
+        const Basic basic = basis_[i];
         if (!basic.artificial) x[basic.index] = std::max(value_[i], Real(0));
     }
     return x;

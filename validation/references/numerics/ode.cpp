@@ -77,12 +77,12 @@ Step extrapolate(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dyd
     OdeState previous, slope;
     Step result;
     for (int j = 0; j < kColumns; ++j) {
-        auto& row = table[static_cast<std::size_t>(j)];
-        row.resize(static_cast<std::size_t>(j) + 1);
+        auto& row = table[j];
+        row.resize(j + 1);
         midpointRule(f, t, y, dydt, step, 2 * (j + 1), row[0], previous, slope);
         for (int k = 1; k <= j; ++k) {
             const auto c = static_cast<std::size_t>(k);
-            const auto& above = table[static_cast<std::size_t>(j) - 1][c - 1];
+            const auto& above = table[j - 1][c - 1];
             const Real ratio = static_cast<Real>(j + 1) / static_cast<Real>(j + 1 - k);
             const Real factor = 1 / (ratio * ratio - 1);
             row[c].resize(y.size());
@@ -109,11 +109,10 @@ Step extrapolate(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dyd
 Real chebyshevPoint(int j) {
     static const auto points = [] {
         std::array<Real, kPanelDegree + 1> x{};
-        for (int i = 0; i <= kPanelDegree; ++i)
-            x[static_cast<std::size_t>(i)] = -std::cos(kPi * i / kPanelDegree);
+        for (int i = 0; i <= kPanelDegree; ++i) x[i] = -std::cos(kPi * i / kPanelDegree);
         return x;
     }();
-    return points[static_cast<std::size_t>(j)];
+    return points[j];
 }
 
 /// integrateOde() in at most `mostSteps` steps, tried ones included; empty where they do not suffice.
@@ -318,7 +317,7 @@ OdeState DenseSolution::evaluate(const Panel& panel, Real t) {
     Real weights = 0;
     for (int j = 0; j <= kPanelDegree; ++j) {
         const Real d = x - chebyshevPoint(j);
-        const auto& node = panel.nodes[static_cast<std::size_t>(j)];
+        const auto& node = panel.nodes[j];
         if (d == 0) return node;
         Real w = (j % 2 == 0 ? 1 : -1) / d;
         if (j == 0 || j == kPanelDegree) w /= 2;

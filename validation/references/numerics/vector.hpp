@@ -46,7 +46,7 @@ inline Real norm(Real3 a) {
 using Real33 = std::array<Real3, 3>;
 inline Real33 real33(const scenario::Mat3& m) {
     Real33 r{};
-    for (int i = 0; i < 3; ++i) r[static_cast<std::size_t>(i)] = {m(i, 0), m(i, 1), m(i, 2)};
+    for (int i = 0; i < 3; ++i) r[i] = {m(i, 0), m(i, 1), m(i, 2)};
     return r;
 }
 inline Real3 operator*(const Real33& m, Real3 v) {

@@ -201,7 +201,7 @@ class PlanarContact : public Reference {
             part->addQuantities(result);
             // The name of a quantity contains the body's if there are several bodies.
             for (std::size_t i = first; i < result.size() && parts_.size() > 1; ++i)
-                result[i].name += "_" + scenario_.bodies[static_cast<std::size_t>(part->body())].name;
+                result[i].name += "_" + scenario_.bodies[part->body()].name;
         }
         return result;
     }

@@ -119,8 +119,7 @@ void PlanarFrame::chooseAxis(const Scenario& scenario) {
         Vec3 g = scenario.gravity;
         for (const auto& force : scenario.forces) {
             const auto* f = std::get_if<scenario::ConstantForce>(&force);
-            if (f && &scenario.bodies[static_cast<std::size_t>(f->body)] == &body_)
-                g += f->force / body_.massProperties.mass;
+            if (f && &scenario.bodies[f->body] == &body_) g += f->force / body_.massProperties.mass;
         }
         const Vec3 lever = foot / std::max(count, 1) - com;
         const Vec3 byLever = cross(plane_.normal, lever), byPull = cross(plane_.normal, g);

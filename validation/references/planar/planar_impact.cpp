@@ -179,8 +179,8 @@ PlanarMotion::Mode PlanarMotion::impact(double& t, State& s, const std::vector<i
         if (!solution) continue;
         std::array<Real, 2> push{}, drag{};
         for (std::size_t i = 0; i < n; ++i) {
-            push[i] = (*solution)[static_cast<Eigen::Index>(2 * i)];
-            drag[i] = (*solution)[static_cast<Eigen::Index>(2 * i + 1)];
+            push[i] = (*solution)[2 * i];
+            drag[i] = (*solution)[2 * i + 1];
         }
         State after = s;
         for (std::size_t i = 0; i < n; ++i) {

@@ -49,7 +49,7 @@ Real signOf(Kind kind) {
 }  // namespace
 
 PlanarMotion::Arm PlanarMotion::armOf(int corner, Real angle) const {
-    const Corner& p = setup_.corners[static_cast<std::size_t>(corner)];
+    const Corner& p = setup_.corners[corner];
     const Real c = std::cos(angle), s = std::sin(angle);
     Arm arm;
     arm.x = c * p.along - s * p.above;

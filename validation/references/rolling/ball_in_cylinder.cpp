@@ -26,7 +26,7 @@ class BallInCylinder : public Reference {
     BallInCylinder(const Scenario& scenario, int ball, int wall)
         : scenario_(scenario),
           ball_(ballOf(scenario, ball)),
-          body_(scenario.bodies[static_cast<std::size_t>(ball)]),
+          body_(scenario.bodies[ball]),
           hollow_(hollowOf(scenario, wall, ball_.center)) {
         const std::string subject = bodyTitle(scenario, ball);
         require(scenario.dimension == 3, "a ball in a cylinder needs three dimensions");

@@ -23,7 +23,7 @@ class BallInTrough : public Reference {
     BallInTrough(const Scenario& scenario, int ball, int trough)
         : scenario_(scenario),
           ball_(ballOf(scenario, ball)),
-          body_(scenario.bodies[static_cast<std::size_t>(ball)]),
+          body_(scenario.bodies[ball]),
           hollow_(hollowOf(scenario, trough, ball_.center)) {
         const std::string subject = bodyTitle(scenario, ball);
         requireUndisturbed(scenario, ball);

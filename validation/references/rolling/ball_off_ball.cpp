@@ -36,7 +36,7 @@ class BallOffBall : public Reference {
         const std::string subject = bodyTitle(scenario, index);
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, base);
-        const Body& fixed = scenario.bodies[static_cast<std::size_t>(base)];
+        const Body& fixed = scenario.bodies[base];
         require(fixed.type == scenario::BodyType::Static && fixed.shapes.size() == 1 &&
                     std::holds_alternative<scenario::Sphere>(fixed.shapes[0].geometry),
                 bodyTitle(scenario, base) + " is not a fixed ball");

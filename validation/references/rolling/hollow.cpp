@@ -30,7 +30,7 @@ Facets facetsOf(const Body& body) {
     require(mesh != nullptr, subject + " is neither a chain of segments nor a mesh of triangles");
     for (const Vec3 v : mesh->vertices) facets.corners.push_back(pose * v);
     for (const auto& t : mesh->triangles) {
-        const auto at = [&](std::size_t k) { return facets.corners[static_cast<std::size_t>(t[k])]; };
+        const auto at = [&](std::size_t k) { return facets.corners[t[k]]; };
         facets.normals.push_back(unit(cross(at(1) - at(0), at(2) - at(0))));
     }
     return facets;
@@ -86,7 +86,7 @@ Hollow hollowOf(const Scenario& scenario, int base, Vec3 inside) {
         Vec3 corner = facets.corners[k];
         if (scenario.dimension == 3) {
             const auto& mesh = std::get<scenario::TriangleMesh>(body.shapes[0].geometry);
-            corner = facets.corners[static_cast<std::size_t>(mesh.triangles[k][0])];
+            corner = facets.corners[mesh.triangles[k][0]];
         }
         nearest = std::min(nearest, std::abs(dot(facets.normals[k], hollow.across(corner))));
     }

@@ -15,7 +15,7 @@ using numerics::Real;
 }  // namespace
 
 RollingBall::RollingBall(const Scenario& scenario, int index, int floor)
-    : body_(&scenario.bodies[static_cast<std::size_t>(index)]),
+    : body_(&scenario.bodies[index]),
       ball_(ballOf(scenario, index)),
       plane_(planeOf(scenario, floor, ball_.center)),
       slip_({}, 0.0, {}, 0.0) {
@@ -105,7 +105,7 @@ std::optional<PartialState> RollingBall::schemeExact(std::size_t step, double dt
     // Two coefficients: no one knows which of them a scheme takes in the step that ends the slip.
     if (!adapter::isEuler(scheme) || holding_ != friction_) return std::nullopt;
     const auto slip = steps_.at(pull_, friction_, slip0_, step, dt, scheme);
-    const double t = static_cast<double>(step) * dt;
+    const double t = step * dt;
     State s = fromSlip({slip.displacement, slip.velocity}, t);
     const double shift = scheme == adapter::Scheme::SymplecticEuler ? dt : -dt;
     s.center += (0.5 * t * shift / (1.0 + ball_.k)) * pull_;

@@ -35,7 +35,7 @@ class RollingBody : public Reference {
     RollingBody(const Scenario& scenario, int index, int floor)
         : scenario_(scenario),
           index_(index),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
+          body_(scenario.bodies[index]),
           plane_(planeOf(scenario, floor, centerOfMass(body_))) {
         const std::string subject = bodyTitle(scenario, index);
         require(scenario.dimension == 3, "a rolling body needs three dimensions");
@@ -266,7 +266,7 @@ class RollingBody : public Reference {
         if (offset == 0) {
             for (std::size_t i = 0; i < 3; ++i)
                 for (std::size_t j = 0; j < 3; ++j) {
-                    const double x = body_.massProperties.inertia(static_cast<int>(i), static_cast<int>(j));
+                    const double x = body_.massProperties.inertia(i, j);
                     const double y = i == j ? body_.massProperties.inertia(0, 0) : 0.0;
                     if (std::abs(x - y) > 1e-9 * body_.massProperties.inertia(0, 0)) return false;
                 }

@@ -23,7 +23,7 @@ class Turntable : public Reference {
   public:
     Turntable(const Scenario& scenario, int index, int table)
         : duration_(scenario.duration),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
+          body_(scenario.bodies[index]),
           ball_(ballOf(scenario, index)),
           plane_(planeOf(scenario, table, ball_.center)) {
         const std::string subject = bodyTitle(scenario, index);

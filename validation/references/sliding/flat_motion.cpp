@@ -9,7 +9,7 @@ namespace rigor::validation {
 using numerics::OdeState;
 
 FlatMotion::FlatMotion(const Scenario& scenario, int index, int floor, const Plane& plane)
-    : body(scenario.bodies[static_cast<std::size_t>(index)]),
+    : body(scenario.bodies[index]),
       normal(plane.normal),
       along(perpendicular(plane.normal)),
       across(cross(plane.normal, along)),

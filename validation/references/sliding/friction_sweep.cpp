@@ -35,7 +35,7 @@ class FrictionSweep : public Reference {
     std::vector<Quantity> quantities(double dt, adapter::Scheme scheme) const override {
         std::vector<Quantity> result;
         for (const auto& one : sliding_) {
-            const std::string suffix = "_" + scenario_.bodies[static_cast<std::size_t>(one->index())].name;
+            const std::string suffix = "_" + scenario_.bodies[one->index()].name;
             one->addStopQuantities(result, suffix, dt, scheme);
             if (one->slide().stopTime() && one->speed() > 0.0) result.push_back(deflection(*one, suffix));
         }
@@ -44,7 +44,7 @@ class FrictionSweep : public Reference {
 
   private:
     Quantity deflection(const SlidingBody& one, const std::string& suffix) const {
-        const Body& body = scenario_.bodies[static_cast<std::size_t>(one.index())];
+        const Body& body = scenario_.bodies[one.index()];
         const double reach = norm(one.slide().at(*one.slide().stopTime()).displacement);
         Quantity q{"deflection" + suffix, "1", 0.0, {}, 1.0, {}};
         q.measure = [&body, reach, index = one.index(),

@@ -47,7 +47,7 @@ class PushedBlocks : public Reference {
         throw std::invalid_argument("pushed_block: unknown body");
     }
     PartialState moved(const Pushed& p, double way, double time) const {
-        const Body& b = scenario_.bodies[static_cast<std::size_t>(p.body)];
+        const Body& b = scenario_.bodies[p.body];
         return stateOf(b, p.start + way * p.acceleration, b.pose.orientation, time * p.acceleration, {});
     }
 

@@ -13,7 +13,7 @@ namespace rigor::validation {
 
 SlidingBody::SlidingBody(const Scenario& scenario, int index, int floor)
     : scenario_(&scenario),
-      body_(&scenario.bodies[static_cast<std::size_t>(index)]),
+      body_(&scenario.bodies[index]),
       index_(index),
       plane_(planeOf(scenario, floor, centerOfMass(*body_))),
       com_(centerOfMass(*body_)),

@@ -178,7 +178,7 @@ std::unique_ptr<Reference> makeSpinningDisc(const Scenario& scenario, const scen
     const Parts parts(scenario, spec, {"body", "floor"});
     const int body = parts.dynamicBody("body");
     const int floor = parts.support("floor", body);
-    const Body& disc = scenario.bodies[static_cast<std::size_t>(body)];
+    const Body& disc = scenario.bodies[body];
     const Vec3 centre = centerOfMass(disc), up = -1.0 * unit(scenario.gravity);
     const Plane plane = planeOf(scenario, floor, centre + 1e-3 * sizeOf(disc) * up);
     return std::make_unique<SpinningDisc>(scenario, body, FlatMotion(scenario, body, floor, plane),

@@ -61,8 +61,7 @@ class TripodSlide : public Reference {
             loads.place.push_back(p);
             loads.slip.push_back({u.x / speed, u.y / speed});
             // (p - H n) x (N (n - mu u)): along the first axis and the second.
-            m.col(static_cast<Eigen::Index>(i)) << 1, p.y - height_ * mu_ * loads.slip[i].y,
-                -p.x + height_ * mu_ * loads.slip[i].x;
+            m.col(i) << 1, p.y - height_ * mu_ * loads.slip[i].y, -p.x + height_ * mu_ * loads.slip[i].x;
         }
         const auto normal = solveDense(m, Vector::Unit(3, 0) * (-motion_.mass * pull_[2]));
         // A trial step far off has no loads: the integrator tries a shorter one.
@@ -136,7 +135,7 @@ std::unique_ptr<Reference> makeTripodSlide(const Scenario& scenario, const scena
     const Parts parts(scenario, spec, {"body", "floor"});
     const int body = parts.dynamicBody("body");
     const int floor = parts.support("floor", body);
-    const Vec3 centre = centerOfMass(scenario.bodies[static_cast<std::size_t>(body)]);
+    const Vec3 centre = centerOfMass(scenario.bodies[body]);
     const Plane plane = planeOf(scenario, floor, centre);
     return std::make_unique<TripodSlide>(scenario, body, FlatMotion(scenario, body, floor, plane),
                                          plane.height(centre));

@@ -20,7 +20,7 @@ namespace rigor::validation {
 namespace {
 
 std::vector<Vec3> cornersOf(const Scenario& scenario, int index) {
-    const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
+    const Body& body = scenario.bodies[index];
     require(body.shapes.size() == 1, bodyTitle(scenario, index) + " has more than one shape");
     const Pose pose = body.pose * body.shapes[0].pose;
     std::vector<Vec3> corners;
@@ -87,8 +87,7 @@ class WedgeBlock : public Reference {
                                             adapter::Scheme scheme) const override {
         if (!adapter::isEuler(scheme)) return std::nullopt;
         // Constant accelerations: velocities are exact, positions off by a dt t/2.
-        const double t = static_cast<double>(step) * dt,
-                     shift = scheme == adapter::Scheme::SymplecticEuler ? dt : -dt;
+        const double t = step * dt, shift = scheme == adapter::Scheme::SymplecticEuler ? dt : -dt;
         const Vec3 a = body == wedge_ ? wedgeAcceleration_ : blockAcceleration_;
         return stateOf(at(body), centerOfMass(at(body)) + (0.5 * t * (t + shift)) * a,
                        at(body).pose.orientation, t * a, {});
@@ -112,7 +111,7 @@ class WedgeBlock : public Reference {
     }
 
   private:
-    const Body& at(int i) const { return scenario_.bodies[static_cast<std::size_t>(i)]; }
+    const Body& at(int i) const { return scenario_.bodies[i]; }
 
     /// The face of the wedge that supports a side of the block.
     void findFace() {

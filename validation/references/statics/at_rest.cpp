@@ -32,7 +32,7 @@ class AtRest : public Reference {
     }
     std::vector<int> bodies() const override { return bodies_; }
     PartialState exact(int index, double) const override {
-        const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+        const Body& body = scenario_.bodies[index];
         return stateOf(body, centerOfMass(body), body.pose.orientation, {}, {});
     }
     std::optional<PartialState> schemeExact(int body, std::size_t, double, adapter::Scheme) const override {
@@ -63,7 +63,7 @@ class AtRest : public Reference {
     }
 
     void checkAlone(int index, int floor) const {
-        const Body& ground = scenario_.bodies[static_cast<std::size_t>(floor)];
+        const Body& ground = scenario_.bodies[floor];
         if (ground.type == BodyType::Dynamic || ground.shapes.size() != 1 ||
             std::holds_alternative<scenario::ConvexHull>(ground.shapes[0].geometry) ||
             std::holds_alternative<scenario::Capsule>(ground.shapes[0].geometry) ||
@@ -73,7 +73,7 @@ class AtRest : public Reference {
             std::holds_alternative<scenario::TriangleMesh>(ground.shapes[0].geometry) ||
             std::holds_alternative<scenario::HeightField>(ground.shapes[0].geometry))
             return;
-        const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+        const Body& body = scenario_.bodies[index];
         if (body.linearVelocityKept != 1.0 || body.angularVelocityKept != 1.0 || !scenario_.forces.empty())
             return;
         const SlidingBody sliding(scenario_, index, floor);
@@ -87,7 +87,7 @@ class AtRest : public Reference {
         shifted.dimension = scenario_.dimension;
         shifted.materials = scenario_.materials;
         shifted.pairs = scenario_.pairs;
-        shifted.bodies.push_back(scenario_.bodies[static_cast<std::size_t>(index)]);
+        shifted.bodies.push_back(scenario_.bodies[index]);
         for (auto& shape : shifted.bodies[0].shapes) shape.material = 0;
         const std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -102,10 +102,9 @@ class AtRest : public Reference {
 
     /// True if the bodies are close enough to touch: by bounding boxes, or exactly for half-spaces.
     bool near(int a, int b) const {
-        const Body& other = scenario_.bodies[static_cast<std::size_t>(b)];
-        const double slack = 1e-2 * sizeOf(scenario_.bodies[static_cast<std::size_t>(a)]);
-        if (scenario_.bodies[static_cast<std::size_t>(a)].shapes.empty() || other.shapes.empty())
-            return false;
+        const Body& other = scenario_.bodies[b];
+        const double slack = 1e-2 * sizeOf(scenario_.bodies[a]);
+        if (scenario_.bodies[a].shapes.empty() || other.shapes.empty()) return false;
         for (const auto& shape : other.shapes)
             if (std::holds_alternative<scenario::HalfSpace>(shape.geometry)) {
                 if (other.shapes.size() > 1) return true;

@@ -29,7 +29,7 @@ std::size_t rowsOf(const LoadedBodies& problem) {
 /// Calls put(row, value) for a force and a torque on a body.
 template <class Put>
 void write(const LoadedBodies& problem, int body, Real3 force, Real3 torque, Put put) {
-    const auto& b = problem.bodies[static_cast<std::size_t>(body)];
+    const auto& b = problem.bodies[body];
     const Real f = 1 / static_cast<Real>(b.load), t = f / static_cast<Real>(b.size);
     if (problem.dimension == 2) {
         const std::size_t row = 3 * static_cast<std::size_t>(body);
@@ -96,8 +96,7 @@ void ContactForces::addRay(std::size_t c, Real3 direction) {
     for (const int body : {contact.a, contact.b}) {
         if (body < 0) continue;
         const Real3 force = body == contact.b ? direction : Real(-1) * direction;
-        const Real3 arm = numerics::real3(contact.point) -
-                          numerics::real3(problem_.bodies[static_cast<std::size_t>(body)].center);
+        const Real3 arm = numerics::real3(contact.point) - numerics::real3(problem_.bodies[body].center);
         write(problem_, body, force, cross(arm, force), [&](std::size_t row, Real v) {
             if (v != 0) column.push_back({row, v});
             largest = std::max(largest, std::abs(v));

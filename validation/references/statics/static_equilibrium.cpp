@@ -54,8 +54,7 @@ class StaticEquilibrium : public Reference {
             "be certified");
         stands_ = found.verdict() == ContactForces::Verdict::Balance;
         if (!stands_) return;
-        for (const auto& [pair, force] : found.determinate())
-            forces_[pairs_[static_cast<std::size_t>(pair)]] = force;
+        for (const auto& [pair, force] : found.determinate()) forces_[pairs_[pair]] = force;
     }
     std::vector<int> bodies() const override { return stands_ ? dynamic_ : std::vector<int>{}; }
     PartialState exact(int index, double) const override {
@@ -84,7 +83,7 @@ class StaticEquilibrium : public Reference {
     }
 
   private:
-    const Body& at(int i) const { return scenario_.bodies[static_cast<std::size_t>(i)]; }
+    const Body& at(int i) const { return scenario_.bodies[i]; }
 
     LoadedBodies loadedBodies() {
         LoadedBodies problem;

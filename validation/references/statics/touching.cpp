@@ -88,7 +88,7 @@ class Collector {
     }
 
   private:
-    const Body& body(int i) const { return scenario_.bodies[static_cast<std::size_t>(i)]; }
+    const Body& body(int i) const { return scenario_.bodies[i]; }
     bool touches(double gap) const { return std::abs(gap) <= kReach * size_; }
     void add(Vec3 point, Vec3 normal) {
         for (std::size_t i = first_; i < out_.size(); ++i)
@@ -133,7 +133,7 @@ class Collector {
             if (!touches(dot(out, p - q) - reach)) continue;
             // An edge whose far side the other body lies on is not the touching one.
             Vec3 middle;
-            for (const Vec3 c : corners.corners) middle += c / static_cast<double>(corners.corners.size());
+            for (const Vec3 c : corners.corners) middle += c / corners.corners.size();
             if (corners.corners.size() > 1 && dot(out, middle - q) < 0) continue;
             // `out` leads from the edges' body to the corner's: from b to a unless swapped.
             add(p - corners.radius * out, swapped ? out : -out);
@@ -220,7 +220,7 @@ class Collector {
 std::vector<TouchingPoint> touchingPoints(const Scenario& scenario) {
     std::vector<TouchingPoint> points;
     Collector collector(scenario, points);
-    const int count = static_cast<int>(scenario.bodies.size());
+    const int count = scenario.bodies.size();
     for (int a = 0; a < count; ++a)
         for (int b = a + 1; b < count; ++b)
             if (scenario::mayCollide(scenario, a, b)) collector.pair(a, b);

@@ -133,9 +133,7 @@ TEST(FrictionSweep, EveryDirectionStopsAtOneDistance) {
     setReference(s, "friction_sweep");
     const auto reference = makeReference(s);
     for (int i = 1; i <= 5; ++i)
-        EXPECT_NEAR(
-            norm(*reference->exact(i, 1).position - s.bodies[static_cast<std::size_t>(i)].pose.position),
-            0.9174311927, 1e-10);
+        EXPECT_NEAR(norm(*reference->exact(i, 1).position - s.bodies[i].pose.position), 0.9174311927, 1e-10);
     const Trajectory run = exactRun(s, *reference, 0.01, 100);
     for (const auto& q : reference->quantities(0.01, Scheme::Unknown))
         EXPECT_NEAR(q.measure(run).value(), q.exact, 1e-12) << q.name;
@@ -209,8 +207,8 @@ TEST(NewtonsCradle, CatalogueAndGaps) {
     const auto cradle = [](std::vector<double> masses, double gap) {
         Scenario s = emptyScene(3, {}, 10);
         for (std::size_t i = 0; i < masses.size(); ++i)
-            addBall(s, "b" + std::to_string(i), 0.1, masses[i], 0.4,
-                    {(0.2 + gap) * static_cast<double>(i), 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0});
+            addBall(s, "b" + std::to_string(i), 0.1, masses[i], 0.4, {(0.2 + gap) * i, 0, 0},
+                    {i == 0 ? 1.0 : 0.0, 0, 0});
         s.materials[0].restitution = 1.0;
         setReference(s, "newtons_cradle");
         return s;
@@ -222,7 +220,7 @@ TEST(NewtonsCradle, CatalogueAndGaps) {
         return v;
     };
     const auto five = velocities(cradle({1, 1, 1, 1, 1}, 0.01));
-    for (int i = 0; i < 5; ++i) EXPECT_NEAR(five[static_cast<std::size_t>(i)], i == 4 ? 1 : 0, 1e-14);
+    for (int i = 0; i < 5; ++i) EXPECT_NEAR(five[i], i == 4 ? 1 : 0, 1e-14);
     const auto unequal = velocities(cradle({1, 2, 1}, 0.01));
     EXPECT_NEAR(unequal[0], -0.3333333333, 1e-9);
     EXPECT_NEAR(unequal[1], 0.2222222222, 1e-9);
@@ -359,8 +357,7 @@ TEST(SlipToRoll, SchemeIsWhatSteppingByHandGives) {
         v += impulse;
         w += (1 / (0.4 * 0.1)) * cross(-n, impulse);
         x += h * v;
-        const auto ideal =
-            reference->schemeExact(0, static_cast<std::size_t>(k) + 1, h, Scheme::SymplecticEuler);
+        const auto ideal = reference->schemeExact(0, k + 1, h, Scheme::SymplecticEuler);
         expectVec(*ideal->position, x, 1e-12);
         expectVec(*ideal->velocity, v, 1e-12);
         expectVec(*ideal->angularVelocity, w, 1e-10);
@@ -389,7 +386,7 @@ TEST(RollingIncline, CatalogueRollAndSlip) {
 TEST(Turntable, CatalogueAndItsOwnEquation) {
     Scenario s = emptyScene(3, {0, 0, -9.81}, 1);
     const int table = addBody(s, "table", BodyType::Kinematic, Box{{2, 2, 0.1}}, {0, 0, -0.1});
-    s.bodies[static_cast<std::size_t>(table)].angularVelocity = {0, 0, 3.5};
+    s.bodies[table].angularVelocity = {0, 0, 3.5};
     // Rolling at the start: v - r w x n = Omega x p.
     const Vec3 v{0, 0.2, 0}, surface{0, 3.5 * 0.5, 0};
     addBall(s, "ball", 0.1, 1, 0.4, {0.5, 0, 0.1}, v, (1 / 0.1) * cross(Vec3{0, 0, 1}, v - surface));

@@ -19,7 +19,7 @@ using std::numbers::pi;
 Scenario hollow(int dimension, double radius, double facet, double from, double to, Vec3 gravity) {
     Scenario s = emptyScene(dimension, gravity, 3);
     s.materials[0].friction = 2;
-    const int n = static_cast<int>(std::lround((to - from) / facet));
+    const int n = std::lround((to - from) / facet);
     if (dimension == 2) {
         Chain chain;
         for (int i = 0; i <= n; ++i)

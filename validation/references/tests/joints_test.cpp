@@ -325,7 +325,7 @@ double crankAngle(const Reference& reference, double t) {
 double energyOf(const Scenario& s, const Reference& reference, double t) {
     double sum = 0;
     for (const int i : reference.bodies()) {
-        const Body& b = s.bodies[static_cast<std::size_t>(i)];
+        const Body& b = s.bodies[i];
         const PartialState x = reference.exact(i, t);
         const double w = x.angularVelocity->z;
         sum += 0.5 * b.massProperties.mass * dot(*x.velocity, *x.velocity) +

@@ -38,7 +38,7 @@ TEST(Kinematics, OfABallThatSlipsAndRolls) {
 TEST(Kinematics, OfABallOnATurntable) {
     Scenario s = emptyScene(3, {0, 0, -9.81}, 1);
     const int table = addBody(s, "table", BodyType::Kinematic, Box{{2, 2, 0.1}}, {0, 0, -0.1});
-    s.bodies[static_cast<std::size_t>(table)].angularVelocity = {0, 0, 3.5};
+    s.bodies[table].angularVelocity = {0, 0, 3.5};
     const Vec3 v{0, 0.2, 0}, surface{0, 3.5 * 0.5, 0};
     addBall(s, "ball", 0.2, 3, 0.5, {0.5, 0, 0.2}, v, (1 / 0.2) * cross(Vec3{0, 0, 1}, v - surface));
     s.materials[0].friction = 0.5;

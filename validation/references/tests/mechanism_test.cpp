@@ -185,7 +185,7 @@ TEST(Mechanism, AndrewsSqueezerAtThirtyMilliseconds) {
                             epsilon - start[6]};
     for (int i = 0; i < 7; ++i)
         EXPECT_NEAR(std::remainder(angleAboutZ(*r->exact(i, 0.03).orientation) - turns[i], 2 * pi), 0.0, 2e-7)
-            << s.bodies[static_cast<std::size_t>(i)].name;
+            << s.bodies[i].name;
 }
 
 // ------------------------------------------------------------------------------------------- parallel_bars

@@ -30,7 +30,7 @@ struct Wrench {
 };
 
 inline Vec3 spinMomentum(const Scenario& s, const Reference& r, int body, double t) {
-    const Body& b = s.bodies[static_cast<std::size_t>(body)];
+    const Body& b = s.bodies[body];
     const PartialState e = r.exact(body, t);
     if (s.dimension == 2) return b.massProperties.inertia(2, 2) * *e.angularVelocity;
     const Mat3 turn = toMatrix(*e.orientation);
@@ -38,8 +38,7 @@ inline Vec3 spinMomentum(const Scenario& s, const Reference& r, int body, double
 }
 inline Vec3 centerAt(const Scenario& s, const Reference& r, int body, double t) {
     const PartialState e = r.exact(body, t);
-    return *e.position +
-           rotate(*e.orientation, s.bodies[static_cast<std::size_t>(body)].massProperties.centerOfMass);
+    return *e.position + rotate(*e.orientation, s.bodies[body].massProperties.centerOfMass);
 }
 /// The world position of a point of the body frame.
 inline Vec3 pointAt(const Reference& r, int body, double t, Vec3 local) {
@@ -53,7 +52,7 @@ Vec3 derivativeOf(const F& f, double t, double h = 5e-4) {
 }
 inline Wrench wrenchOn(const Scenario& s, const Reference& r, int body, double t, double h = 5e-4) {
     Wrench w;
-    const Body& b = s.bodies[static_cast<std::size_t>(body)];
+    const Body& b = s.bodies[body];
     w.com = centerAt(s, r, body, t);
     w.acceleration = derivativeOf([&](double at) { return *r.exact(body, at).velocity; }, t, h);
     w.force = b.massProperties.mass * (w.acceleration - b.gravityScale * s.gravity);
@@ -76,7 +75,7 @@ inline void expectConsistent(const Scenario& s, const Reference& r, int body, do
 inline double energyOf(const Scenario& s, const Reference& r, double t) {
     double sum = 0.0;
     for (const int body : r.bodies()) {
-        const Body& b = s.bodies[static_cast<std::size_t>(body)];
+        const Body& b = s.bodies[body];
         const PartialState e = r.exact(body, t);
         sum += 0.5 * b.massProperties.mass * dot(*e.velocity, *e.velocity) +
                0.5 * dot(*e.angularVelocity, spinMomentum(s, r, body, t)) -

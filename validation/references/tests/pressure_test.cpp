@@ -167,7 +167,7 @@ Scenario row(const std::vector<double>& masses, double e, int runners = 1) {
     for (std::size_t i = 0; i < masses.size(); ++i) {
         const bool runs = static_cast<int>(i) < runners;
         addBall(s, std::string(1, static_cast<char>('a' + i)), 0.1, masses[i], 0.4,
-                {0.2 * static_cast<double>(i) - (runs ? 0.3 : 0.0), 0, 0}, {runs ? 1.0 : 0.0, 0, 0});
+                {0.2 * i - (runs ? 0.3 : 0.0), 0, 0}, {runs ? 1.0 : 0.0, 0, 0});
     }
     setReference(s, "touching_row");
     return s;
@@ -314,8 +314,7 @@ Scenario chain(int dimension, const std::vector<double>& length, const std::vect
         addBody(s, "link" + std::to_string(i), BodyType::Dynamic, Sphere{0.01}, points[i] + c * along);
         s.bodies.back().massProperties = {mass[i], {}, Mat3::diagonal(0.01, 0.01, 0.01)};
         s.bodies.back().collides = false;
-        addJoint(s, JointType::Hinge, i == 0 ? kNone : static_cast<int>(i) - 1, static_cast<int>(i),
-                 points[i]);
+        addJoint(s, JointType::Hinge, i == 0 ? kNone : static_cast<int>(i) - 1, i, points[i]);
     }
     addJoint(s, JointType::Ball, static_cast<int>(length.size()) - 1, kNone, points.back());
     s.joints.back().bodyA = kNone;
@@ -341,9 +340,7 @@ TEST(HangingChain, UnequalLinksHangWhereTwoBisectionsPutThem) {
         const Scenario s = chain(dimension, {0.3, 0.5, 0.2, 0.6, 0.3}, {1, 0.2, 5, 0.4, 2}, 0.3, span);
         const auto r = makeReference(s);
         for (const int body : r->bodies())
-            EXPECT_LT(
-                norm(*r->exact(body, 0.5).position - s.bodies[static_cast<std::size_t>(body)].pose.position),
-                1e-9);
+            EXPECT_LT(norm(*r->exact(body, 0.5).position - s.bodies[body].pose.position), 1e-9);
     }
 }
 

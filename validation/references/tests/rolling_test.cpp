@@ -370,7 +370,7 @@ TEST(RollingBody, AChiralBallTurnsItsSpinRoundAndItsMirrorImageDoesNot) {
     }
     // A ball with the inertia mirrored (x to -x) and the same start is another ball and turns in another way.
     Scenario mirrored = s;
-    Mat3& inertia = mirrored.bodies[static_cast<std::size_t>(ball)].massProperties.inertia;
+    Mat3& inertia = mirrored.bodies[ball].massProperties.inertia;
     for (const auto& [i, j] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{0, 2}, std::pair{2, 0}})
         inertia(i, j) = -inertia(i, j);
     EXPECT_GT(std::abs(spin(mirrored, 2.1) - spin(s, 2.1)), 0.1);

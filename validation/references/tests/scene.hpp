@@ -40,9 +40,7 @@ inline Joint& addJoint(Scenario& s, JointType type, int a, int b, Vec3 anchor, V
     j.type = type;
     j.bodyA = a;
     j.bodyB = b;
-    const auto pose = [&](int body) {
-        return body == kNone ? Pose{} : s.bodies[static_cast<std::size_t>(body)].pose;
-    };
+    const auto pose = [&](int body) { return body == kNone ? Pose{} : s.bodies[body].pose; };
     j.anchorA = inverse(pose(a)) * anchor;
     j.anchorB = inverse(pose(b)) * anchor;
     j.axisA = rotateInverse(pose(a).orientation, axis);
@@ -96,8 +94,7 @@ inline Trajectory exactRun(const Scenario& s, const Reference& reference, double
                 {body.pose.position, body.pose.orientation, body.velocity, body.angularVelocity});
         for (const int b : reference.bodies()) {
             const PartialState exact = reference.exact(b, run.times.back());
-            auto& state =
-                run.states[static_cast<std::size_t>(k) * run.bodyCount + static_cast<std::size_t>(b)];
+            auto& state = run.states[k * run.bodyCount + b];
             if (exact.position) state.position = *exact.position;
             if (exact.orientation) state.orientation = *exact.orientation;
             if (exact.velocity) state.velocity = *exact.velocity;

@@ -132,7 +132,7 @@ double criticalThickness(int n) {
                 low = std::max(low, inner.y * thrust - (moment - weight * inner.x));
                 high = std::min(high, outer.y * thrust - (moment - weight * outer.x));
                 if (i == 0) break;
-                moment += s.bodies[static_cast<std::size_t>(i + 1)].pose.position.x;
+                moment += s.bodies[i + 1].pose.position.x;
                 weight += 1;
             }
             return high - low;

@@ -90,7 +90,7 @@ std::string checkFinite(const Scenario& s, const Reference& r, double end) {
 
 std::string checkStart(const Scenario& s, const Reference& r) {
     for (const int body : r.bodies()) {
-        const Body& b = s.bodies[static_cast<std::size_t>(body)];
+        const Body& b = s.bodies[body];
         const PartialState x = r.exact(body, 0.0);
         if (x.position && norm(*x.position - b.pose.position) > 1e-4 * (sizeOf(b) + lengthOf(s)))
             return at("start: position", body, 0);
@@ -105,7 +105,7 @@ std::string checkStart(const Scenario& s, const Reference& r) {
 
 /// Position of the centre of mass, if the reference determines it.
 std::optional<Vec3> centerAt(const Scenario& s, const Reference& r, int body, double t) {
-    const Body& b = s.bodies[static_cast<std::size_t>(body)];
+    const Body& b = s.bodies[body];
     const PartialState x = r.exact(body, t);
     if (!x.position) return std::nullopt;
     if (b.massProperties.centerOfMass == Vec3{}) return x.position;
@@ -158,7 +158,7 @@ std::string checkRate(const Scenario& s, const Reference& r, double end, unsigne
 std::optional<double> energyAt(const Scenario& s, const Reference& r, double t) {
     double sum = 0.0;
     for (const int body : r.bodies()) {
-        const Body& b = s.bodies[static_cast<std::size_t>(body)];
+        const Body& b = s.bodies[body];
         const PartialState x = r.exact(body, t);
         const auto center = centerAt(s, r, body, t);
         if (!center || !x.velocity || !x.angularVelocity || !x.orientation) return std::nullopt;
@@ -187,7 +187,7 @@ std::string checkEnergy(const Scenario& s, const Reference& r, double end) {
     if (!nothingDrives(s, r)) return "";
     double weight = 0.0, least = 1e300, most = -1e300;
     for (const int body : r.bodies()) {
-        const Body& b = s.bodies[static_cast<std::size_t>(body)];
+        const Body& b = s.bodies[body];
         weight += b.massProperties.mass * norm(s.gravity) * (sizeOf(b) + lengthOf(s)) +
                   0.5 * b.massProperties.mass * dot(b.velocity, b.velocity);
     }
@@ -203,8 +203,7 @@ std::string checkEnergy(const Scenario& s, const Reference& r, double end) {
     // count as well.
     const double tolerance = 1e-7 * (weight + std::abs(least) + std::abs(most));
     for (std::size_t k = 1; k < energy.size(); ++k)
-        if (energy[k] > energy[k - 1] + tolerance)
-            return at("energy", r.bodies()[0], end * static_cast<double>(k) / 40);
+        if (energy[k] > energy[k - 1] + tolerance) return at("energy", r.bodies()[0], end * k / 40);
     return "";
 }
 
@@ -227,7 +226,7 @@ std::string checkUnits(const Scenario& s, const Reference& r, double end) {
                 const double t = end * k / 16;
                 const auto a = r.exact(body, t).position, b = same->exact(body, t * u.time).position;
                 if (!a || !b) continue;
-                const double way = norm(*a - s.bodies[static_cast<std::size_t>(body)].pose.position);
+                const double way = norm(*a - s.bodies[body].pose.position);
                 if (norm(*b / u.length - *a) > 1e-6 * (scale + way)) return at("units", body, t);
             }
     }
@@ -318,7 +317,7 @@ Judged judgeInChild(const Scenario& s, unsigned seed, const Options& options) {
 
 // ---------------------------------------------------------------------------------------------- the sweep
 unsigned seedOf(const Options& options, int set, int place) {
-    return static_cast<unsigned>(options.seed * 1000003 + set * 7919 + place);
+    return options.seed * 1000003 + set * 7919 + place;
 }
 
 void writeSet(const std::filesystem::path& file, Scenario s, unsigned seed) {

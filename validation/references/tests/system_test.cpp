@@ -128,9 +128,8 @@ TEST(IsolatedSystem, QuantitiesSeeADriftOfTheCentreAndOfSpins) {
     const double u = 1.5, va = 1 - 2 * 3.0 / 4 * u, vb = -0.5 + 2 * 1.0 / 4 * u;
     for (const int k : {1, 2}) {
         const double before = 1, after = k - 1;
-        run.states[static_cast<std::size_t>(2 * k)].position = {-1 + before * 1 + after * va, 0.2 * k, 0};
-        run.states[static_cast<std::size_t>(2 * k + 1)].position = {1 - before * 0.5 + after * vb, 0,
-                                                                    0.1 * k};
+        run.states[2 * k].position = {-1 + before * 1 + after * va, 0.2 * k, 0};
+        run.states[2 * k + 1].position = {1 - before * 0.5 + after * vb, 0, 0.1 * k};
     }
     auto all = r->quantities(0.01, Scheme::Unknown);
     ASSERT_EQ(all.size(), 2U);

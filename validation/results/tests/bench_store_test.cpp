@@ -45,7 +45,7 @@ Bench bench() {
     for (const char* id : {"a", "b"}) {
         BenchCase c;
         c.id = id;
-        c.position = static_cast<std::int64_t>(b.cases.size());
+        c.position = b.cases.size();
         c.part = "scene";
         c.name = "pyramid";
         c.engine = "ode:preset=matched";

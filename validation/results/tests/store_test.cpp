@@ -532,7 +532,7 @@ TEST(Store, WhatReturnedSurvivesAKill) {
     while (written < sizeof done) {
         const auto n = read(ready[0], done, sizeof done - written);
         ASSERT_GT(n, 0);
-        written += static_cast<std::size_t>(n);
+        written += n;
     }
     kill(child, SIGKILL);
     int status = 0;
@@ -542,7 +542,7 @@ TEST(Store, WhatReturnedSurvivesAKill) {
     const auto run = readRun(folder.path());
     ASSERT_GE(run.cases.size(), written);
     for (std::size_t i = 0; i < run.cases.size(); ++i)
-        expectSame(caseRow(std::to_string(i), static_cast<std::int64_t>(i)), run.cases[i]);
+        expectSame(caseRow(std::to_string(i), i), run.cases[i]);
     EXPECT_NO_THROW(RunWriter(folder.path(), true).finishedCases());
 }
 

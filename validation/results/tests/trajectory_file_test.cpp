@@ -27,7 +27,7 @@ std::vector<double> anyDoubles(std::size_t count, std::uint64_t seed) {
 }
 
 Channel channel(const char* unit, int columns, std::size_t rows, std::uint64_t seed) {
-    return {unit, columns, anyDoubles(rows * static_cast<std::size_t>(columns), seed)};
+    return {unit, columns, anyDoubles(rows * columns, seed)};
 }
 
 TrajectoryFile sampleFile(std::size_t frames) {
@@ -50,7 +50,7 @@ TrajectoryFile sampleFile(std::size_t frames) {
     for (std::size_t i = 0; i < frames; ++i) {
         ContactSample c;
         c.time = 0.1 * i;
-        c.bodyA = static_cast<int>(i);
+        c.bodyA = i;
         c.bodyB = 7;
         c.shapeA = 2;
         c.shapeB = 3;

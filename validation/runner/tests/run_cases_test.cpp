@@ -109,7 +109,7 @@ TEST_F(RunCases, TheTrajectoryFileHoldsRunAndReference) {
     const double h = 0.0078125;
     const scenario::Vec3 g{0.5, -3.75, 0.25};
     for (std::size_t n = 0; n < 65; ++n) {
-        const double t = static_cast<double>(n) * h;
+        const double t = n * h;
         const double error =
             file.bodies[1].position.values[3 * n + 1] - file.reference[0].position.values[3 * n + 1];
         EXPECT_NEAR(error, 0.5 * g.y * t * h, 1e-12) << n;

@@ -40,8 +40,8 @@ TEST(Bootstrap, MeansHaveTheirStandardErrors) {
     constexpr std::size_t kOne = 400, kOther = 900;
     const auto meanOf = [](const std::vector<std::size_t>& picks, double scale) {
         double sum = 0.0;
-        for (const std::size_t i : picks) sum += scale * static_cast<double>(i);
-        return sum / static_cast<double>(picks.size());
+        for (const std::size_t i : picks) sum += scale * i;
+        return sum / picks.size();
     };
     // 0 ... n - 1 has the variance (n^2 - 1) / 12.
     const auto errorOf = [](std::size_t n, double scale) {

@@ -77,7 +77,7 @@ TEST(Statistics, KolmogorovSmirnovIsExact) {
         EXPECT_NEAR(test.distance, d, 1e-15);
         const auto atLeast =
             std::count_if(hands.begin(), hands.end(), [&](unsigned h) { return distanceOf(h) >= d - 1e-12; });
-        EXPECT_NEAR(test.p, static_cast<double>(atLeast) / 126.0, 1e-14);
+        EXPECT_NEAR(test.p, atLeast / 126.0, 1e-14);
     }
 }
 

@@ -25,7 +25,7 @@ Body ball(const std::string& name, std::size_t shapes = 1) {
     b.massProperties.mass = 1.0;
     for (std::size_t i = 0; i < shapes; ++i) {
         scenario::Shape shape;
-        shape.geometry = scenario::Sphere{1.0 + static_cast<double>(i)};
+        shape.geometry = scenario::Sphere{1.0 + i};
         b.shapes.push_back(shape);
     }
     return b;
@@ -132,7 +132,7 @@ TEST(Listing, BringsStatesAndContactsBack) {
         t.times = {0.0};
         for (const Body& b : other.scenario.bodies) {
             BodyState state;
-            state.position.x = static_cast<double>(b.name.size());
+            state.position.x = b.name.size();
             t.states.push_back(state);
         }
         // The compound's sphere of radius 3 touches the ball "left" in the direction of y.
@@ -144,7 +144,7 @@ TEST(Listing, BringsStatesAndContactsBack) {
         const auto& shapes = other.scenario.bodies[indexOf("compound")].shapes;
         for (std::size_t k = 0; k < shapes.size(); ++k)
             if (std::get<scenario::Sphere>(shapes[k].geometry).radius == 3.0)
-                (compoundFirst ? c.shapeA : c.shapeB) = static_cast<int>(k);
+                (compoundFirst ? c.shapeA : c.shapeB) = k;
         t.contacts = {{c}};
 
         const Trajectory back = other.back(t);

@@ -43,7 +43,7 @@ Trajectory exactTrajectory(const Scenario& s, const scenario::ReferenceSpec& spe
             BodyState state{b.pose.position, b.pose.orientation, b.velocity, b.angularVelocity};
             if (b.type == scenario::BodyType::Kinematic) state.position += t.times.back() * b.velocity;
             if (std::find(known.begin(), known.end(), static_cast<int>(i)) != known.end()) {
-                const PartialState exact = reference->exact(static_cast<int>(i), t.times.back());
+                const PartialState exact = reference->exact(i, t.times.back());
                 state.position = exact.position.value_or(state.position);
                 state.orientation = exact.orientation.value_or(state.orientation);
                 state.velocity = exact.velocity.value_or(state.velocity);
@@ -263,7 +263,7 @@ TEST(TimeReversal, OfSymplecticEulerIsOffByOneStepOfGravity) {
     for (auto& b : s.bodies) b.collides = false;
     ASSERT_EQ(reversal->obstacle(s), "");
     const double h = 1.0 / 64.0;
-    const int steps = static_cast<int>(std::lround(s.duration / h));
+    const int steps = std::lround(s.duration / h);
     const auto fly = [&](const Scenario& of, int count) {
         Trajectory t;
         t.dt = h;

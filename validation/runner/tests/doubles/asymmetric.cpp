@@ -56,8 +56,7 @@ struct InsertionDependent : AsymmetricWorld {
 struct HiddenRandom : AsymmetricWorld {
     using AsymmetricWorld::AsymmetricWorld;
     void injectFault(std::size_t, Moving& m) const override { m.position += Vec3{noise_, 0, 0}; }
-    double noise_ =
-        1e-12 * static_cast<double>(std::chrono::system_clock::now().time_since_epoch().count() % 9973 + 1);
+    double noise_ = 1e-12 * (std::chrono::system_clock::now().time_since_epoch().count() % 9973 + 1);
 };
 /// Sums in another order on more threads.
 struct ThreadDependent : AsymmetricWorld {

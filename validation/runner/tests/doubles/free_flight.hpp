@@ -22,7 +22,7 @@ class FreeFlightWorld : public World {
     FreeFlightWorld(const Scenario& scenario, double dt, const Settings& settings)
         : scenario_(scenario),
           dt_(dt),
-          pause_(static_cast<useconds_t>(integerSetting(settings, "pause_us"))),
+          pause_(integerSetting(settings, "pause_us")),
           allocations_(integerSetting(settings, "allocations")),
           asleep_(integerSetting(settings, "asleep")),
           states_(scenario.bodies.size()),

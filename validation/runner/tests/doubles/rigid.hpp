@@ -125,7 +125,7 @@ class RigidWorld : public World {
     virtual BodyState reported(std::size_t i) const { return stateOf(i); }
     virtual ContactPoint reported(const Contact& c) const { return c.point; }
 
-    static std::size_t index(int body) { return static_cast<std::size_t>(body); }
+    static std::size_t index(int body) { return body; }
     bool isDynamic(std::size_t i) const { return scenario_.bodies[i].type == scenario::BodyType::Dynamic; }
     Vec3 spin(std::size_t i, const Quat& q) const {
         const Quat f = frameOfInertia(q);
@@ -179,7 +179,7 @@ class RigidWorld : public World {
 
     void findContacts() {
         contacts_.clear();
-        const int n = static_cast<int>(bodies_.size());
+        const int n = bodies_.size();
         for (int a = 0; a < n; ++a)
             for (int b = a + 1; b < n; ++b)
                 if (mayCollide(scenario_, a, b)) meet(a, b);
