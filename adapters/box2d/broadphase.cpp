@@ -24,7 +24,7 @@ using adapter::Pair;
 /// Rounded away from the box, so that no overlap is lost in single precision.
 float roundedDown(double v) {
     const auto f = static_cast<float>(v);
-    return static_cast<double>(f) > v ? std::nextafter(f, -std::numeric_limits<float>::max()) : f;
+    return f > v ? std::nextafter(f, -std::numeric_limits<float>::max()) : f;
 }
 b2AABB boxToBox2d(const Aabb& box) {
     b2AABB aabb;
@@ -53,8 +53,7 @@ class Box2dBroadPhase final : public adapter::TimedBroadPhase {
         kept_.insert(kept_.end(), reported_.begin(), reported_.end());
         reported_.clear();
         std::erase_if(kept_, [this](const Pair& pair) {
-            return !tree_->TestOverlap(proxies_[static_cast<std::size_t>(pair.a)],
-                                       proxies_[static_cast<std::size_t>(pair.b)]);
+            return !tree_->TestOverlap(proxies_[pair.a], proxies_[pair.b]);
         });
         std::sort(kept_.begin(), kept_.end());
         kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());

@@ -221,7 +221,7 @@ class Box2dBatch final : public adapter::CollisionBatch {
     std::size_t runQuery(std::size_t i) {
         manifolds_[i].pointCount = 0;
         collideOrdered(pairs_[i].first, pairs_[i].second, manifolds_[i]);
-        return static_cast<std::size_t>(manifolds_[i].pointCount);
+        return manifolds_[i].pointCount;
     }
     std::vector<BatchPair> pairs_;
     std::vector<b2Manifold> manifolds_;
@@ -263,7 +263,7 @@ Closest closestPoints(const Side& a, const Side& b, const Frame& frame) {
     if (!closest.coresApart) return closest;
     const b2Vec2 normal = (1.0f / output.distance) * (output.pointB - output.pointA);
     const float rA = input.proxyA.m_radius, rB = input.proxyB.m_radius;
-    closest.distance = static_cast<double>(output.distance - rA - rB) / frame.scale;
+    closest.distance = (output.distance - rA - rB) / frame.scale;
     closest.normal = fromBox2d(normal, 1.0);
     closest.onA = frame.world(output.pointA + rA * normal);
     closest.onB = frame.world(output.pointB - rB * normal);
@@ -326,7 +326,7 @@ CollisionAnswer Box2dCollisionEngine::collide(const CollisionQuery& query) const
         answer.witnessB = deepest.pointB;
     }
     if (static_cast<int>(answer.contacts.size()) > query.maxContacts)
-        answer.contacts.resize(static_cast<std::size_t>(std::max(query.maxContacts, 0)));
+        answer.contacts.resize(std::max(query.maxContacts, 0));
     return answer;
 }
 

@@ -91,8 +91,8 @@ scenario::PairCoefficients ContactRules::probe(int materialA, int materialB) con
     for (int i = 0; i < 2; ++i) {
         b2BodyDef def;
         def.type = i == 0 ? b2_staticBody : b2_dynamicBody;
-        def.position.Set(0.0f, 1.9f * static_cast<float>(i));
-        def.linearVelocity.Set(0.0f, -10.0f * static_cast<float>(i));
+        def.position.Set(0.0f, 1.9f * i);
+        def.linearVelocity.Set(0.0f, -10.0f * i);
         def.userData.pointer = reinterpret_cast<uintptr_t>(&bodies[i]);
         b2CircleShape disc;
         disc.m_radius = 1.0f;
@@ -106,7 +106,7 @@ scenario::PairCoefficients ContactRules::probe(int materialA, int materialB) con
     world.Step(settings_.dt, 1, 1);
     const b2Contact* contact = world.GetContactList();
     if (contact == nullptr) throw std::logic_error("box2d: the probe bodies did not meet");
-    return {static_cast<double>(contact->GetFriction()), static_cast<double>(contact->GetRestitution())};
+    return {contact->GetFriction(), contact->GetRestitution()};
 }
 
 }  // namespace rigor::box2d

@@ -24,13 +24,13 @@ inline b2Vec2 toBox2d(const Vec3& v, double scale) {
     return {static_cast<float>(scale * v.x), static_cast<float>(scale * v.y)};
 }
 inline Vec3 fromBox2d(const b2Vec2& v, double scale) {
-    return {static_cast<double>(v.x) / scale, static_cast<double>(v.y) / scale, 0.0};
+    return {v.x / scale, v.y / scale, 0.0};
 }
 inline b2Transform toBox2d(const Pose& pose, double scale) {
     return {toBox2d(pose.position, scale), b2Rot(static_cast<float>(angleAboutZ(pose.orientation)))};
 }
 inline Pose fromBox2d(const b2Vec2& position, float angle, double scale) {
-    return {fromBox2d(position, scale), scenario::fromAxisAngle({0.0, 0.0, 1.0}, static_cast<double>(angle))};
+    return {fromBox2d(position, scale), scenario::fromAxisAngle({0.0, 0.0, 1.0}, angle)};
 }
 
 }  // namespace rigor::box2d

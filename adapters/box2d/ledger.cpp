@@ -68,9 +68,8 @@ void Box2dWorld::appendShapeLedger(std::vector<LedgerEntry>& lines) const {
     };
     const bool least = is("skin", "least");
     add("collision_skin", "0",
-        "radius " + shown(static_cast<double>(shapes_.skin.polygon) / scale_) +
-            " m around polygons and edges, " + shown(static_cast<double>(shapes_.skin.circle) / scale_) +
-            " m around circles",
+        "radius " + shown(shapes_.skin.polygon / scale_) + " m around polygons and edges, " +
+            shown(shapes_.skin.circle / scale_) + " m around circles",
         Realisation::Approximate,
         least ? "surfaces touch when at rest on each other, to within a slop"
               : "shapes rest up to 3 slops apart (" + shown(3.0 * b2_linearSlop / scale_) + " m)");

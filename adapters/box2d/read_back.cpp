@@ -18,7 +18,7 @@ BodyState Box2dWorld::stateOf(const BodyRecord& record) const {
     return {pose.position,
             pose.orientation,
             fromBox2d(record.body->GetLinearVelocity(), scale_),
-            {0.0, 0.0, static_cast<double>(record.body->GetAngularVelocity())}};
+            {0.0, 0.0, record.body->GetAngularVelocity()}};
 }
 
 void Box2dWorld::readStates(std::span<BodyState> states) const {
@@ -39,8 +39,7 @@ void Box2dWorld::appendContact(const b2Contact& contact, std::vector<ContactPoin
     const b2Shape &shapeA = *fixtureA->GetShape(), &shapeB = *fixtureB->GetShape();
     b2WorldManifold placed;
     const b2Manifold& manifold = *contact.GetManifold();
-    placed.Initialize(&manifold, before_[static_cast<std::size_t>(tagA.body)], shapeA.m_radius,
-                      before_[static_cast<std::size_t>(tagB.body)], shapeB.m_radius);
+    placed.Initialize(&manifold, before_[tagA.body], shapeA.m_radius, before_[tagB.body], shapeB.m_radius);
     const b2Vec2 normal = placed.normal, tangent = b2Cross(normal, 1.0f);
     const float skinA = skinOf(shapeA, shapes_.skin), skinB = skinOf(shapeB, shapes_.skin);
     const bool ordered = tagA.body < tagB.body;
@@ -60,7 +59,7 @@ void Box2dWorld::appendContact(const b2Contact& contact, std::vector<ContactPoin
         point.depth = -static_cast<double>(placed.separations[i] + skinA + skinB) / scale_;
         point.hasImpulse = solved;
         if (solved) {
-            point.normalImpulse = static_cast<double>(manifold.points[i].normalImpulse) / scale_;
+            point.normalImpulse = manifold.points[i].normalImpulse / scale_;
             point.frictionImpulse = sign * fromBox2d(manifold.points[i].tangentImpulse * tangent, scale_);
         }
         contacts.push_back(point);
@@ -85,13 +84,12 @@ adapter::ReadBack Box2dWorld::readBack() const {
         entry.state = stateOf(*record);
         entry.centerOfMass = record->frame * fromBox2d(body.GetLocalCenter(), scale_);
         if (body.GetType() == b2_dynamicBody) {
-            entry.mass = static_cast<double>(body.GetMass());
+            entry.mass = body.GetMass();
             const b2Vec2 c = body.GetLocalCenter();
-            const double aboutOrigin = static_cast<double>(body.GetInertia());
-            const double shift = entry.mass * static_cast<double>(b2Dot(c, c));
+            const double aboutOrigin = body.GetInertia();
+            const double shift = entry.mass * b2Dot(c, c);
             entry.inertia(2, 2) = (aboutOrigin - shift) / (scale_ * scale_);
-            entry.gravity =
-                static_cast<double>(body.GetGravityScale()) * fromBox2d(world_->GetGravity(), scale_);
+            entry.gravity = body.GetGravityScale() * fromBox2d(world_->GetGravity(), scale_);
         }
         back.bodies.push_back(entry);
     }
@@ -103,7 +101,7 @@ adapter::ReadBack Box2dWorld::readBack() const {
 }
 
 bool Box2dWorld::isAsleep(int body) const {
-    const b2Body* object = records_[static_cast<std::size_t>(body)]->body;
+    const b2Body* object = records_[body]->body;
     return object->GetType() == b2_dynamicBody && !object->IsAwake();
 }
 
@@ -116,7 +114,7 @@ adapter::StepCounters Box2dWorld::counters() const {
     counters.solverIterations = velocityIterations_;
     if (steps_ == 0) return counters;
     const b2Profile& profile = world_->GetProfile();  // milliseconds
-    const auto seconds = [](float ms) { return 1e-3 * static_cast<double>(ms); };
+    const auto seconds = [](float ms) { return 1e-3 * ms; };
     counters.phaseSeconds = {{"broad_phase", seconds(profile.broadphase)},
                              {"narrow_phase", seconds(profile.collide)},
                              {"solve_init", seconds(profile.solveInit)},

@@ -15,7 +15,7 @@ namespace {
 /// The angle of a pose, in the turn nearest to where the body is: Box2D counts turns, its joints' limits too.
 float angleNear(double angle, float now) {
     constexpr double kTurn = 2.0 * std::numbers::pi;
-    return static_cast<float>(angle + kTurn * std::round((static_cast<double>(now) - angle) / kTurn));
+    return static_cast<float>(angle + kTurn * std::round((now - angle) / kTurn));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ void refuseWelding(const std::vector<b2Vec2>& points) {
 void refuseSliver(const std::vector<b2Vec2>& points) {
     double area = 0.0;
     for (std::size_t i = 1; i + 1 < points.size(); ++i)
-        area += 0.5 * static_cast<double>(b2Cross(points[i] - points[0], points[i + 1] - points[0]));
+        area += 0.5 * b2Cross(points[i] - points[0], points[i + 1] - points[0]);
     if (std::abs(area) < 1e-6)
         throw notInLibrary("box2d", "polygon of so small an area (option scale)", kSinglePrecision);
 }
@@ -73,7 +73,7 @@ struct Builder {
         refuseWelding(points);
         refuseSliver(points);
         auto polygon = std::make_unique<b2PolygonShape>();
-        polygon->Set(points.data(), static_cast<int32>(points.size()));
+        polygon->Set(points.data(), points.size());
         polygon->m_radius = settings.skin.polygon;
         Shapes shapes;
         shapes.push_back(std::move(polygon));

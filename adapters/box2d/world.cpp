@@ -75,7 +75,7 @@ ShapeSettings Box2dWorld::shapeSettings() const {
 }
 
 void Box2dWorld::addBody(int index) {
-    const scenario::Body& source = scenario_.bodies[static_cast<std::size_t>(index)];
+    const scenario::Body& source = scenario_.bodies[index];
     refuseFar(source.pose.position, "body '" + source.name + "'");
     auto record = std::make_unique<BodyRecord>();
     // Box2D gives a kinematic body no centre of mass of its own: its origin is put there, since the
@@ -105,7 +105,7 @@ void Box2dWorld::addBody(int index) {
 }
 
 void Box2dWorld::addFixtures(BodyRecord& record, int index) {
-    const scenario::Body& source = scenario_.bodies[static_cast<std::size_t>(index)];
+    const scenario::Body& source = scenario_.bodies[index];
     const Pose toBody = inverse(record.frame);
     for (std::size_t i = 0; i < source.shapes.size(); ++i) {
         const scenario::Shape& shape = source.shapes[i];
@@ -135,7 +135,7 @@ void Box2dWorld::setMass(b2Body& body, const scenario::Body& source) const {
     data.I = static_cast<float>(scale_ * scale_ * (central + properties.mass * dot(c, c)));
     const float left = data.I - data.mass * b2Dot(data.center, data.center);
     const double wanted = scale_ * scale_ * central;
-    if (!(data.mass > 0.0f) || !(std::abs(static_cast<double>(left) - wanted) < 1e-3 * wanted))
+    if (!(data.mass > 0.0f) || !(std::abs(left - wanted) < 1e-3 * wanted))
         throw notInLibrary("box2d", "number for the inertia about the body's origin", kSinglePrecision,
                            "body '" + source.name + "'");
     body.SetMassData(&data);
@@ -144,8 +144,8 @@ void Box2dWorld::setMass(b2Body& body, const scenario::Body& source) const {
 void Box2dWorld::addJoint(const scenario::Joint& joint) {
     const auto endOf = [&](int index) {
         if (index == scenario::kNone) return JointEnd{ground_, {}, {}};
-        const BodyRecord& record = *records_[static_cast<std::size_t>(index)];
-        return JointEnd{record.body, record.frame, scenario_.bodies[static_cast<std::size_t>(index)].pose};
+        const BodyRecord& record = *records_[index];
+        return JointEnd{record.body, record.frame, scenario_.bodies[index].pose};
     };
     joints_.push_back(box2d::addJoint(*world_, joint, endOf(joint.bodyA), endOf(joint.bodyB), scale_));
 }
@@ -178,7 +178,7 @@ void Box2dWorld::collidePairsOfBrokenJoints() {
 }
 
 void Box2dWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
-    BodyRecord& record = *records_[static_cast<std::size_t>(body)];
+    BodyRecord& record = *records_[body];
     const b2Vec2 f = toBox2d(force, scale_);
     const auto t = static_cast<float>(scale_ * scale_ * torque.z);
     record.body->ApplyForceToCenter(f, true);

@@ -31,7 +31,7 @@ class Box2dWorld final : public adapter::World, public adapter::StateSetting {
     adapter::StepCounters counters() const override;
     adapter::Scheme scheme() const override { return adapter::Scheme::SymplecticEuler; }
     bool isAsleep(int body) const override;
-    bool jointHolds(int joint) const override { return !joints_[static_cast<std::size_t>(joint)].empty(); }
+    bool jointHolds(int joint) const override { return !joints_[joint].empty(); }
 
   private:
     struct BodyRecord {

@@ -46,8 +46,7 @@ struct Articulations::Tree {
 namespace {
 
 bool moves(const Scenario& scenario, int body) {
-    return body != scenario::kNone &&
-           scenario.bodies[static_cast<std::size_t>(body)].type == BodyType::Dynamic;
+    return body != scenario::kNone && scenario.bodies[body].type == BodyType::Dynamic;
 }
 
 void refuseMissing(const Joint& joint, const Scenario& scenario) {
@@ -66,8 +65,7 @@ void refuseMissing(const Joint& joint, const Scenario& scenario) {
     }
     if (joint.breakForce < 1e299 || joint.breakTorque < 1e299) refuse("breaking joint");
     for (const int body : {joint.bodyA, joint.bodyB})
-        if (body != scenario::kNone &&
-            scenario.bodies[static_cast<std::size_t>(body)].type == BodyType::Kinematic)
+        if (body != scenario::kNone && scenario.bodies[body].type == BodyType::Kinematic)
             throw adapter::notInAdapter("bullet", "btMultiBody on a kinematic body",
                                         "joint '" + joint.name + "'");
 }
@@ -83,7 +81,7 @@ std::vector<bool> Articulations::linkedBodies(const Scenario& scenario) {
     for (const Joint& joint : scenario.joints) {
         refuseMissing(joint, scenario);
         for (const int body : {joint.bodyA, joint.bodyB})
-            if (moves(scenario, body)) linked[static_cast<std::size_t>(body)] = true;
+            if (moves(scenario, body)) linked[body] = true;
     }
     for (std::size_t i = 0; i < linked.size(); ++i) {
         const scenario::Body& body = scenario.bodies[i];
@@ -110,7 +108,7 @@ Articulations::Articulations(const Scenario& scenario, std::vector<LinkSource> s
         Tree tree;
         tree.base = base;
         std::deque<int> open{base};
-        if (base != scenario::kNone) placed[static_cast<std::size_t>(base)] = true;
+        if (base != scenario::kNone) placed[base] = true;
         while (!open.empty()) {
             const int parent = open.front();
             open.pop_front();
@@ -125,10 +123,10 @@ Articulations::Articulations(const Scenario& scenario, std::vector<LinkSource> s
                 used[j] = true;
                 if (!moves(scenario, child)) {
                     if (parent != scenario::kNone) tree.loops.push_back(&joint);
-                } else if (placed[static_cast<std::size_t>(child)]) {
+                } else if (placed[child]) {
                     tree.loops.push_back(&joint);
                 } else {
-                    placed[static_cast<std::size_t>(child)] = true;
+                    placed[child] = true;
                     tree.edges.push_back({&joint, parent, child, !fromA});
                     open.push_back(child);
                 }
@@ -138,7 +136,7 @@ Articulations::Articulations(const Scenario& scenario, std::vector<LinkSource> s
     };
     grow(scenario::kNone);
     for (std::size_t i = 0; i < linked.size(); ++i)
-        if (linked[i] && !placed[i]) grow(static_cast<int>(i));
+        if (linked[i] && !placed[i]) grow(i);
     update();
 }
 
@@ -169,7 +167,7 @@ void Articulations::build(const Tree& tree) {
     if (rooted) addFloatingRoot(multiBody, tree.base);
     const auto linkOf = [first](std::size_t edge) { return first + static_cast<int>(edge); };
     for (std::size_t i = 0; i < tree.edges.size(); ++i) {
-        links_[static_cast<std::size_t>(tree.edges[i].child)] = {&multiBody, linkOf(i)};
+        links_[tree.edges[i].child] = {&multiBody, linkOf(i)};
         addLink(multiBody, linkOf(i), tree.edges[i]);
     }
     multiBody.finalizeMultiDof();
@@ -224,8 +222,7 @@ void Articulations::addLink(btMultiBody& multiBody, int index, const Edge& edge)
     const btVector3 fromJoint = -(childPose.inverse() * anchor);
     const btScalar mass = scalar(body.massProperties.mass);
     const btVector3& moments = sources_[child].moments;
-    const int parent =
-        edge.parent == scenario::kNone ? -1 : links_[static_cast<std::size_t>(edge.parent)].index;
+    const int parent = edge.parent == scenario::kNone ? -1 : links_[edge.parent].index;
     if (joint.type == JointType::Hinge || (joint.type == JointType::Ball && settings_.planar))
         multiBody.setupRevolute(index, mass, moments, parent, turn, axisHere, toJoint, fromJoint);
     else if (joint.type == JointType::Slider)
@@ -240,15 +237,15 @@ void Articulations::addLink(btMultiBody& multiBody, int index, const Edge& edge)
 /// joint.
 void Articulations::setCoordinates(btMultiBody& multiBody, int index, const Edge& edge) {
     const Joint& joint = *edge.joint;
-    const scenario::Body& body = scenario_.bodies[static_cast<std::size_t>(edge.child)];
+    const scenario::Body& body = scenario_.bodies[edge.child];
     const Vec3 anchor = body.pose * (edge.turned ? joint.anchorA : joint.anchorB);
     const auto at = [&](int i) {
         if (!moves(scenario_, i)) return Vec3{};
-        const scenario::Body& b = scenario_.bodies[static_cast<std::size_t>(i)];
+        const scenario::Body& b = scenario_.bodies[i];
         return b.velocity + cross(b.angularVelocity, anchor - b.pose * b.massProperties.centerOfMass);
     };
     const auto turnOf = [&](int i) {
-        return moves(scenario_, i) ? scenario_.bodies[static_cast<std::size_t>(i)].angularVelocity : Vec3{};
+        return moves(scenario_, i) ? scenario_.bodies[i].angularVelocity : Vec3{};
     };
     const Vec3 axis = rotate(body.pose.orientation, edge.turned ? joint.axisA : joint.axisB);
     const Vec3 turn = turnOf(edge.child) - turnOf(edge.parent);
@@ -297,12 +294,10 @@ void Articulations::closeLoop(btMultiBody& multiBody, const Joint& joint) {
     // The first end is one that moves.
     const bool fromB = moves(scenario_, joint.bodyB);
     const int first = fromB ? joint.bodyB : joint.bodyA, second = fromB ? joint.bodyA : joint.bodyB;
-    const Pose& pose = scenario_.bodies[static_cast<std::size_t>(first)].pose;
+    const Pose& pose = scenario_.bodies[first].pose;
     const Vec3 anchor = pose * (fromB ? joint.anchorB : joint.anchorA);
     const Vec3 axis = rotate(pose.orientation, fromB ? joint.axisB : joint.axisA);
-    const auto linkOf = [&](int body) {
-        return moves(scenario_, body) ? links_[static_cast<std::size_t>(body)].index : -1;
-    };
+    const auto linkOf = [&](int body) { return moves(scenario_, body) ? links_[body].index : -1; };
     const btTransform poseA = startPose(first), poseB = startPose(second);
     const auto pin = [&](const Vec3& point) {
         addConstraint(std::make_unique<btMultiBodyPoint2Point>(
@@ -374,26 +369,26 @@ void Articulations::update() {
 }
 
 btTransform Articulations::pose(int body) const {
-    return links_[static_cast<std::size_t>(body)].pose;
+    return links_[body].pose;
 }
 btVector3 Articulations::velocity(int body) const {
-    return links_[static_cast<std::size_t>(body)].velocity;
+    return links_[body].velocity;
 }
 btVector3 Articulations::angularVelocity(int body) const {
-    return links_[static_cast<std::size_t>(body)].angularVelocity;
+    return links_[body].angularVelocity;
 }
 double Articulations::mass(int body) const {
-    const Link& link = links_[static_cast<std::size_t>(body)];
+    const Link& link = links_[body];
     return static_cast<double>(link.index < 0 ? link.multiBody->getBaseMass()
                                               : link.multiBody->getLinkMass(link.index));
 }
 btVector3 Articulations::moments(int body) const {
-    const Link& link = links_[static_cast<std::size_t>(body)];
+    const Link& link = links_[body];
     return link.index < 0 ? link.multiBody->getBaseInertia() : link.multiBody->getLinkInertia(link.index);
 }
 
 void Articulations::addForce(int body, const btVector3& force, const btVector3& torque) {
-    Link& link = links_[static_cast<std::size_t>(body)];
+    Link& link = links_[body];
     link.multiBody->wakeUp();
     if (link.index < 0) {
         link.multiBody->addBaseForce(force);
@@ -405,7 +400,7 @@ void Articulations::addForce(int body, const btVector3& force, const btVector3& 
 }
 
 bool Articulations::asleep(int body) const {
-    return !links_[static_cast<std::size_t>(body)].multiBody->isAwake();
+    return !links_[body].multiBody->isAwake();
 }
 
 }  // namespace rigor::bullet

@@ -49,7 +49,7 @@ class Articulations {
                   btMultiBodyDynamicsWorld& world, const ArticulationSettings& settings);
     ~Articulations();
 
-    bool has(int body) const { return links_[static_cast<std::size_t>(body)].multiBody != nullptr; }
+    bool has(int body) const { return links_[body].multiBody != nullptr; }
     /// Forward kinematics of all links: Bullet's cached poses are those of the start of its step.
     void update();
     btTransform pose(int body) const;  ///< pose of the centre-of-mass frame

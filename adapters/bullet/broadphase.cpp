@@ -21,7 +21,7 @@ using adapter::Vec3;
 /// Rounded away from the box where the scalar is coarser than double, so that no overlap is lost.
 btScalar roundedDown(double v) {
     const auto s = static_cast<btScalar>(v);
-    return static_cast<double>(s) > v ? std::nextafter(s, -std::numeric_limits<btScalar>::max()) : s;
+    return s > v ? std::nextafter(s, -std::numeric_limits<btScalar>::max()) : s;
 }
 btScalar roundedUp(double v) {
     return -roundedDown(-v);

@@ -161,7 +161,7 @@ class BulletBatch final : public adapter::CollisionBatch {
             algorithm->processCollision(&wrapA, &wrapB, info, &result);
             int contacts = 0;
             for (int k = 0; k < manifolds.size(); ++k) contacts += manifolds[k]->getNumContacts();
-            return static_cast<std::size_t>(contacts);
+            return contacts;
         }
         Side a, b;
         btCollisionObjectWrapper wrapA, wrapB;
@@ -253,8 +253,7 @@ std::optional<Closest> gjkDistance(const Side& a, const Side& b) {
     detector.getClosestPoints(input, closest, nullptr);
     if (!closest.m_hasResult) return std::nullopt;
     const btVector3 onA = closest.m_pointInWorld + closest.m_normalOnBInWorld * closest.m_distance;
-    return Closest{static_cast<double>(closest.m_distance), fromBullet(onA),
-                   fromBullet(closest.m_pointInWorld)};
+    return Closest{closest.m_distance, fromBullet(onA), fromBullet(closest.m_pointInWorld)};
 }
 
 /// Signed distance of a convex shape from a plane, by its support point.
@@ -268,7 +267,7 @@ Closest planeDistance(const Side& plane, const Side& convex, bool planeIsA) {
         pose * convex.convex().localGetSupportingVertex(pose.getBasis().transpose() * -normal);
     const btScalar distance = normal.dot(deepest - onPlane);
     const Vec3 foot = fromBullet(deepest - normal * distance), tip = fromBullet(deepest);
-    return {static_cast<double>(distance), planeIsA ? foot : tip, planeIsA ? tip : foot};
+    return {distance, planeIsA ? foot : tip, planeIsA ? tip : foot};
 }
 
 /// Closest points of two sides; empty for a surface, since GJK needs convex shapes.
@@ -344,7 +343,7 @@ CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) cons
         answer.witnessB = closest->onB;
     }
     if (static_cast<int>(contacts.size()) > query.maxContacts)
-        contacts.resize(static_cast<std::size_t>(std::max(query.maxContacts, 0)));
+        contacts.resize(std::max(query.maxContacts, 0));
     answer.contacts = std::move(contacts);
     return answer;
 }

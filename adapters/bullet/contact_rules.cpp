@@ -78,7 +78,7 @@ PairCoefficients combinedByBullet(const btCollisionObject& a, int childA, const 
     result.setShapeIdentifiersB(-1, childB);
     result.addContactPoint(btVector3(0, 1, 0), b.getWorldTransform().getOrigin(), btScalar(0.0));
     const btManifoldPoint& point = manifold.getContactPoint(0);
-    return {static_cast<double>(point.m_combinedFriction), static_cast<double>(point.m_combinedRestitution)};
+    return {point.m_combinedFriction, point.m_combinedRestitution};
 }
 
 }  // namespace rigor::bullet

@@ -35,7 +35,7 @@ class BulletSolve final : public adapter::ContactSolve {
           dependentLimits_(dependentLimits),
           direct_(direct),
           dimension_(p.dimension),
-          n_(static_cast<int>(p.size())),
+          n_(p.size()),
           mu_(p.mu) {
         A_.resize(n_, n_);
         b_.resize(n_);
@@ -44,10 +44,9 @@ class BulletSolve final : public adapter::ContactSolve {
         hi_.resize(n_);
         limits_.resize(n_);
         for (int i = 0; i < n_; ++i) {
-            const auto row = static_cast<std::size_t>(i) * p.size();
-            for (int j = 0; j < n_; ++j)
-                A_.setElem(i, j, static_cast<btScalar>(p.W[row + static_cast<std::size_t>(j)]));
-            b_[i] = static_cast<btScalar>(-p.q[static_cast<std::size_t>(i)]);
+            const auto row = i * p.size();
+            for (int j = 0; j < n_; ++j) A_.setElem(i, j, static_cast<btScalar>(p.W[row + j]));
+            b_[i] = static_cast<btScalar>(-p.q[i]);
             limits_[i] = i % dimension_ == 0 ? -1 : i - i % dimension_;
         }
     }
@@ -60,14 +59,14 @@ class BulletSolve final : public adapter::ContactSolve {
         } else {
             rounds(iterations, tolerance, found);
         }
-        for (int i = 0; i < n_; ++i) found.r.push_back(static_cast<double>(x_[i]));
+        for (int i = 0; i < n_; ++i) found.r.push_back(x_[i]);
         return found;
     }
     adapter::FrictionModel friction() const override { return {adapter::FrictionModel::Kind::Box}; }
 
   private:
     double limitOf(int row) const {
-        const auto mu = mu_[static_cast<std::size_t>(row / dimension_)];
+        const auto mu = mu_[row / dimension_];
         return dependentLimits_ ? mu : mu * std::max(0.0, static_cast<double>(x_[row - row % dimension_]));
     }
     /// Solves with the limits of friction of the present normal impulses, times `share`. Solvers may overwrite

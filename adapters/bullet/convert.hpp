@@ -26,12 +26,11 @@ inline btTransform toBullet(const Pose& pose) {
     return btTransform(toBullet(pose.orientation), toBullet(pose.position));
 }
 inline Vec3 fromBullet(const btVector3& v) {
-    return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
+    return {v.x(), v.y(), v.z()};
 }
 inline Pose fromBullet(const btTransform& t) {
     const btQuaternion q = t.getRotation();
-    const Quat unit{static_cast<double>(q.w()), static_cast<double>(q.x()), static_cast<double>(q.y()),
-                    static_cast<double>(q.z())};
+    const Quat unit{q.w(), q.x(), q.y(), q.z()};
     return {fromBullet(t.getOrigin()), normalized(unit)};
 }
 

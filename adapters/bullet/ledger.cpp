@@ -37,7 +37,7 @@ std::vector<LedgerEntry> BulletWorld::ledger() const {
         add("solver_fallback", setting("solver"),
             "sequential impulses in " + std::to_string(mlcpSolver_->getNumFallbacks()) + " solves",
             Realisation::Approximate, "the direct solver failed there and Bullet fell back");
-    add("warm_starting", setting("warm_starting"), shown(static_cast<double>(info.m_warmstartingFactor)));
+    add("warm_starting", setting("warm_starting"), shown(info.m_warmstartingFactor));
     const bool pyramid = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0;
     add("friction_law", "coulomb cone, pair coefficient",
         pyramid ? "two rows, each within mu N" : "one row within mu N", Realisation::Approximate,
@@ -45,8 +45,7 @@ std::vector<LedgerEntry> BulletWorld::ledger() const {
                 : "along the sliding velocity; where nothing slides, one fixed tangent alone is held");
     add("friction_pair", "pair table", "written into each contact point");
     add("restitution", "pair coefficient, no threshold",
-        "pair coefficient, none below " + shown(static_cast<double>(info.m_restitutionVelocityThreshold)) +
-            " m/s",
+        "pair coefficient, none below " + shown(info.m_restitutionVelocityThreshold) + " m/s",
         info.m_restitutionVelocityThreshold > 0 ? Realisation::Approximate : Realisation::Exact,
         info.m_restitutionVelocityThreshold > 0 ? "Bullet's velocity threshold" : "");
     const bool speculative = is("speculative_contacts", "on");
@@ -56,7 +55,7 @@ std::vector<LedgerEntry> BulletWorld::ledger() const {
         speculative ? "a contact still apart takes gap/dt off the approach, and off the rebound" : "");
     const bool allSplit = is("split_impulse", "on") && info.m_splitImpulsePenetrationThreshold > 1e6;
     add("position_correction", "no change of velocity",
-        allSplit ? "split impulses, ERP " + shown(static_cast<double>(info.m_erp2))
+        allSplit ? "split impulses, ERP " + shown(info.m_erp2)
                  : "Baumgarte velocity for shallow contacts, split impulses below " +
                        setting("split_impulse_threshold") + " m",
         allSplit ? Realisation::Exact : Realisation::Approximate,

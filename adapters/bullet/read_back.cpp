@@ -65,12 +65,12 @@ void addPlanarContact(ContactPoint contact, std::vector<ContactPoint>& contacts,
 /// Bullet's impulses act on its body 0; `towardsB` is -1 where that is the scenario's A.
 void BulletWorld::readImpulses(const btManifoldPoint& point, double towardsB, ContactPoint& contact) const {
     contact.hasImpulse = true;
-    contact.normalImpulse = static_cast<double>(point.m_appliedImpulse);
-    contact.frictionImpulse = (towardsB * static_cast<double>(point.m_appliedImpulseLateral1)) *
-                              fromBullet(point.m_lateralFrictionDir1);
+    contact.normalImpulse = point.m_appliedImpulse;
+    contact.frictionImpulse =
+        (towardsB * point.m_appliedImpulseLateral1) * fromBullet(point.m_lateralFrictionDir1);
     if (is("friction_directions", "2"))
-        contact.frictionImpulse += (towardsB * static_cast<double>(point.m_appliedImpulseLateral2)) *
-                                   fromBullet(point.m_lateralFrictionDir2);
+        contact.frictionImpulse +=
+            (towardsB * point.m_appliedImpulseLateral2) * fromBullet(point.m_lateralFrictionDir2);
 }
 
 void BulletWorld::appendManifold(const btPersistentManifold& manifold,
@@ -124,27 +124,24 @@ adapter::ReadBack BulletWorld::readBack() const {
     for (const auto& record : records_) {
         const btRigidBody& body = *record->body;
         adapter::BodyReadBack entry;
-        entry.mass =
-            record->linked ? articulations_->mass(record->tag.body) : static_cast<double>(body.getMass());
+        entry.mass = record->linked ? articulations_->mass(record->tag.body) : body.getMass();
         entry.centerOfMass = record->comFrame.position;
         const btVector3 moments =
             record->linked ? articulations_->moments(record->tag.body) : body.getLocalInertia();
-        const Mat3 principal =
-            Mat3::diagonal(static_cast<double>(moments.x()), static_cast<double>(moments.y()),
-                           static_cast<double>(moments.z()));
+        const Mat3 principal = Mat3::diagonal(moments.x(), moments.y(), moments.z());
         const Mat3 axes = toMatrix(record->comFrame.orientation);
         entry.inertia = axes * principal * transpose(axes);
         if (planar_) entry.inertia = Mat3::diagonal(0.0, 0.0, entry.inertia(2, 2));
         entry.state = stateOf(*record);
         if (record->linked)
-            entry.gravity = scenario_.bodies[static_cast<std::size_t>(record->tag.body)].gravityScale *
-                            fromBullet(world_->getGravity());
+            entry.gravity =
+                scenario_.bodies[record->tag.body].gravityScale * fromBullet(world_->getGravity());
         else if (!body.isStaticOrKinematicObject())
             entry.gravity = fromBullet(body.getGravity());
         back.bodies.push_back(entry);
     }
     const auto bodyOf = [&](const adapter::PairTable::ShapeRef& ref) -> const btRigidBody& {
-        return *records_[static_cast<std::size_t>(ref.body)]->body;
+        return *records_[ref.body]->body;
     };
     for (const auto& m : pairs_.examples()) {
         const auto combined = combinedByBullet(bodyOf(m.a), m.a.shape, bodyOf(m.b), m.b.shape);
@@ -154,8 +151,8 @@ adapter::ReadBack BulletWorld::readBack() const {
 }
 
 bool BulletWorld::isAsleep(int body) const {
-    if (records_[static_cast<std::size_t>(body)]->linked) return articulations_->asleep(body);
-    const btRigidBody& object = *records_[static_cast<std::size_t>(body)]->body;
+    if (records_[body]->linked) return articulations_->asleep(body);
+    const btRigidBody& object = *records_[body]->body;
     return !object.isStaticOrKinematicObject() && object.getActivationState() == ISLAND_SLEEPING;
 }
 
@@ -169,7 +166,7 @@ adapter::StepCounters BulletWorld::counters() const {
     for (const auto& record : records_)
         if (!record->linked && !record->body->isStaticOrKinematicObject() && record->body->isActive())
             islands.insert(record->body->getIslandTag());
-    if (steps_ > 0) counters.islands = static_cast<std::int64_t>(islands.size());
+    if (steps_ > 0) counters.islands = islands.size();
     const btSolverAnalyticsData& analytics = solver_->m_analyticsData;
     if (mlcpSolver_ == nullptr && analytics.m_numIterationsUsed >= 0) {
         counters.solverIterations = analytics.m_numIterationsUsed;

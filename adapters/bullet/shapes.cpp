@@ -32,10 +32,10 @@ BuiltShape buildMesh(const scenario::TriangleMesh& mesh, const ShapeSettings& se
     for (const auto& triangle : mesh.triangles)
         data->indices.insert(data->indices.end(), triangle.begin(), triangle.end());
     btIndexedMesh part;
-    part.m_numTriangles = static_cast<int>(mesh.triangles.size());
+    part.m_numTriangles = mesh.triangles.size();
     part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(data->indices.data());
     part.m_triangleIndexStride = 3 * sizeof(int);
-    part.m_numVertices = static_cast<int>(mesh.vertices.size());
+    part.m_numVertices = mesh.vertices.size();
     part.m_vertexBase = reinterpret_cast<const unsigned char*>(data->numbers.data());
     part.m_vertexStride = 3 * sizeof(btScalar);
     part.m_vertexType = sizeof(btScalar) == sizeof(double) ? PHY_DOUBLE : PHY_FLOAT;
@@ -147,7 +147,7 @@ BodyShape::BodyShape(const scenario::Body& body, const Pose& comFrame, const Sha
     for (std::size_t i = 0; i < body.shapes.size(); ++i) {
         BuiltShape built = buildGeometry(body.shapes[i].geometry, body.pose * body.shapes[i].pose, settings);
         const Pose local = toCom * body.shapes[i].pose * built.offset;
-        built.shape->setUserIndex(static_cast<int>(i));
+        built.shape->setUserIndex(i);
         parts_.push_back(std::move(built));
         if (body.shapes.size() == 1 && local == Pose{}) {
             root_ = parts_.back().shape.get();

@@ -121,12 +121,12 @@ std::unique_ptr<SixDof> freeJoint(const Layout& layout, const Joint& joint, cons
 
 void setRange(SixDof& part, std::size_t k, const Range& range) {
     const bool negated = k >= 3 && range.lower <= range.upper;
-    part.setLimit(static_cast<int>(k), toScalar(negated ? -range.upper : range.lower),
+    part.setLimit(k, toScalar(negated ? -range.upper : range.lower),
                   toScalar(negated ? -range.lower : range.upper));
 }
 
 void setMotor(SixDof& part, std::size_t k, const JointAxis& axis) {
-    const int index = static_cast<int>(k);
+    const int index = k;
     part.enableMotor(index, true);
     part.setTargetVelocity(index, toScalar(-axis.motorSpeed));
     part.setMaxMotorForce(index, toScalar(axis.motorMaxForce));
@@ -135,7 +135,7 @@ void setMotor(SixDof& part, std::size_t k, const JointAxis& axis) {
 /// A damper takes the coordinate's motor.
 void setSpring(SixDof& part, std::size_t k, const JointAxis& axis, const JointSettings& settings,
                std::vector<Damper>& dampers) {
-    const int index = static_cast<int>(k);
+    const int index = k;
     if (axis.stiffness == 0.0) {
         part.enableMotor(index, true);
         part.setTargetVelocity(index, btScalar(0.0));

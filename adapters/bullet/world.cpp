@@ -179,7 +179,7 @@ ShapeSettings BulletWorld::shapeSettings() const {
 }
 
 void BulletWorld::addBody(int index) {
-    const scenario::Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+    const scenario::Body& body = scenario_.bodies[index];
     const bool dynamic = body.type == BodyType::Dynamic;
     auto record = std::make_unique<BodyRecord>();
     btVector3 moments(0, 0, 0);
@@ -224,7 +224,7 @@ void BulletWorld::addBody(int index) {
         rigid.setLinearFactor(btVector3(1, 1, 0));
         rigid.setAngularFactor(btVector3(0, 0, 1));
     }
-    record->linked = linked_[static_cast<std::size_t>(index)];
+    record->linked = linked_[index];
     if (record->linked) {
         records_.push_back(std::move(record));
         return;
@@ -238,13 +238,12 @@ void BulletWorld::addBody(int index) {
 void BulletWorld::addJoint(const scenario::Joint& joint) {
     const auto endOf = [&](int index) {
         if (index == scenario::kNone) return JointEnd{ground_.get(), {}, {}, nullptr};
-        const BodyRecord& record = *records_[static_cast<std::size_t>(index)];
-        const scenario::Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+        const BodyRecord& record = *records_[index];
+        const scenario::Body& body = scenario_.bodies[index];
         return JointEnd{record.body.get(), record.comFrame, body.pose, &body};
     };
     const auto moved = [&](int index) {
-        return index != scenario::kNone &&
-               scenario_.bodies[static_cast<std::size_t>(index)].type == BodyType::Kinematic;
+        return index != scenario::kNone && scenario_.bodies[index].type == BodyType::Kinematic;
     };
     const bool weighted =
         is("frame_offset", "by_body") ? !moved(joint.bodyA) && !moved(joint.bodyB) : is("frame_offset", "on");
@@ -316,7 +315,7 @@ adapter::Scheme BulletWorld::scheme() const {
 }
 
 bool BulletWorld::jointHolds(int joint) const {
-    return articulations_ || joints_[static_cast<std::size_t>(joint)]->holds();
+    return articulations_ || joints_[joint]->holds();
 }
 
 void BulletWorld::articulate() {
@@ -327,7 +326,7 @@ void BulletWorld::articulate() {
     ArticulationSettings settings;
     settings.dt = dt_;
     // Rounded as the library's own default is, a float literal in either precision.
-    settings.damping = static_cast<double>(static_cast<float>(numberSetting(settings_, "multibody_damping")));
+    settings.damping = static_cast<float>(numberSetting(settings_, "multibody_damping"));
     settings.maximalVelocity = numberSetting(settings_, "multibody_velocity_limit");
     settings.rungeKutta = is("multibody_integrator", "rk4");
     settings.gyroscopic = !is("gyroscopic", "none");
@@ -343,16 +342,16 @@ void BulletWorld::pullScaledGravity() {
         const scenario::Body& body = scenario_.bodies[i];
         if (!records_[i]->linked || body.gravityScale == 1.0) continue;
         const Vec3 rest = (body.massProperties.mass * (body.gravityScale - 1.0)) * scenario_.gravity;
-        articulations_->addForce(static_cast<int>(i), toBullet(rest), btVector3(0, 0, 0));
+        articulations_->addForce(i, toBullet(rest), btVector3(0, 0, 0));
     }
 }
 
 void BulletWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
-    if (records_[static_cast<std::size_t>(body)]->linked) {
+    if (records_[body]->linked) {
         articulations_->addForce(body, toBullet(force), toBullet(torque));
         return;
     }
-    btRigidBody& rigid = *records_[static_cast<std::size_t>(body)]->body;
+    btRigidBody& rigid = *records_[body]->body;
     if (rigid.isStaticOrKinematicObject()) return;
     rigid.activate();
     rigid.applyCentralForce(toBullet(force));

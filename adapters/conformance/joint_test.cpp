@@ -452,7 +452,7 @@ TEST_P(Joints, ASpringOfASwingBringsTheRodBack) {
             SCOPED_TRACE(jointName(type) + std::string(", about y ") + std::to_string(across.y));
             Scenario s = scene();
             const int b = addBody(s, block({0.5, 0.1, 0.1}), {0.5, 0, 0}, 2.0, {0.1, 0.3, 0.3});
-            auto& body = s.bodies[static_cast<std::size_t>(b)];
+            auto& body = s.bodies[b];
             body.angularVelocity = across;
             body.velocity = cross(across, Vec3{0.5, 0, 0});
             Joint joint = jointOf(type, scenario::kNone, b, {}, {-0.5, 0, 0});
@@ -486,7 +486,7 @@ TEST_P(Joints, TwoFreeBodiesOnAJointKeepTheirMomentum) {
         const double spin = 2.0;
         const Vec3 drift{0.3, 0.2, 0.0}, center{0.4, 0, 0};
         for (const int i : {a, b}) {
-            Body& body = s.bodies[static_cast<std::size_t>(i)];
+            Body& body = s.bodies[i];
             body.angularVelocity = {0, 0, spin};
             body.velocity = drift + cross(Vec3{0, 0, spin}, body.pose.position - center);
         }

@@ -133,7 +133,7 @@ Vec3 boxMoments(double mass, const Vec3& h) {
 BodyState stateOf(const adapter::World& world, const Scenario& s, int body) {
     std::vector<BodyState> states(s.bodies.size());
     world.readStates(states);
-    return states[static_cast<std::size_t>(body)];
+    return states[body];
 }
 
 std::vector<ContactPoint> contactsOf(const adapter::World& world) {

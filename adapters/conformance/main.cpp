@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "%s: %s\n", spec.c_str(), e.what());
         return 2;
     }
-    int count = static_cast<int>(rest.size());
+    int count = rest.size();
     rest.push_back(nullptr);
     testing::InitGoogleTest(&count, rest.data());
     testing::AddGlobalTestEnvironment(new NoStaleDeviations);

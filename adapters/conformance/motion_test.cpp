@@ -182,7 +182,7 @@ TEST_P(Motion, WhatSleepsIsAtRest) {
     Scenario s = scene();
     const int still = addBody(s, ball(0.2), {});
     const int moving = addBody(s, ball(0.2), {5.0, 0.0, 0.0});
-    s.bodies[static_cast<std::size_t>(moving)].velocity = {0.0, 1.0, 0.0};
+    s.bodies[moving].velocity = {0.0, 1.0, 0.0};
     auto world = build(s, 1.0 / 60.0);
     for (int step = 0; step < 240; ++step) {
         run(*world, 1);

@@ -30,7 +30,7 @@ class Stages : public DynamicsTest {
     static std::vector<double> bits(const adapter::World& world, const Scenario& s) {
         std::vector<double> all;
         for (std::size_t i = 0; i < s.bodies.size(); ++i) {
-            const BodyState b = stateOf(world, s, static_cast<int>(i));
+            const BodyState b = stateOf(world, s, i);
             for (const double v : {b.position.x, b.position.y, b.position.z, b.orientation.w, b.orientation.x,
                                    b.orientation.y, b.orientation.z, b.velocity.x, b.velocity.y, b.velocity.z,
                                    b.angularVelocity.x, b.angularVelocity.y, b.angularVelocity.z})
@@ -120,7 +120,7 @@ TEST_P(Stages, WhatIsReadFitsTogether) {
         EXPECT_NEAR(point.depth, point.pointA.y - point.pointB.y, 1e-5);
         ASSERT_EQ(hasRow(point), rowsOfPoints);
         if (!rowsOfPoints) continue;
-        const auto& row = rows.at(static_cast<std::size_t>(point.row));
+        const auto& row = rows.at(point.row);
         EXPECT_EQ(row.kind, adapter::StagedRow::Kind::Normal);
         EXPECT_EQ(row.bodyA, 0);
         EXPECT_EQ(row.bodyB, 1);

@@ -54,18 +54,18 @@ TEST_P(StateSettingTest, WhatIsSetIsReadBack) {
     Scenario s = scene();
     const int still = addStatic(s, ball(0.2), {5, 5, 0}), b = addBody(s, ball(0.5), {}, 2.0);
     if (engine().capabilities().centerOfMassOffset)
-        s.bodies[static_cast<std::size_t>(b)].massProperties.centerOfMass = flat({0.1, -0.2, 0.05});
+        s.bodies[b].massProperties.centerOfMass = flat({0.1, -0.2, 0.05});
     auto world = build(s, 0.01);
     auto* setter = setterOf(*world);
     if (setter == nullptr) GTEST_SKIP() << "this world cannot be put somewhere else";
     for (const int steps : {0, 7}) {
         run(*world, steps);
         auto states = statesOf(*world, s);
-        states[static_cast<std::size_t>(b)] = somewhere();
+        states[b] = somewhere();
         setter->setStates(states);
         const auto now = statesOf(*world, s);
-        expectSame(now[static_cast<std::size_t>(b)], somewhere(), tol(1e-13, 1e-6));
-        EXPECT_EQ(norm(now[static_cast<std::size_t>(still)].position - Vec3{5, 5, 0}), 0.0);
+        expectSame(now[b], somewhere(), tol(1e-13, 1e-6));
+        EXPECT_EQ(norm(now[still].position - Vec3{5, 5, 0}), 0.0);
     }
     EXPECT_STRNE(setter->warmStart(), "");
 }
@@ -95,7 +95,7 @@ TEST_P(StateSettingTest, AContactGoesOnUpToWarmStarting) {
     s.gravity = {0, -9.81, 0};
     addFloor(s);
     const int b = addBody(s, block({0.5, 0.25, 0.5}), {0, 0.25, 0}, 1.0, boxMoments(1.0, {0.5, 0.25, 0.5}));
-    s.bodies[static_cast<std::size_t>(b)].velocity = {2, 0, 0};
+    s.bodies[b].velocity = {2, 0, 0};
     auto plain = build(s, 1.0 / 240.0), set = build(s, 1.0 / 240.0);
     auto* setter = setterOf(*set);
     if (setter == nullptr) GTEST_SKIP() << "this world cannot be put somewhere else";
@@ -121,12 +121,12 @@ TEST_P(StateSettingTest, AMovedBodyTouchesWhatIsWhereItIsNow) {
     run(*world, 5);
     EXPECT_FALSE(touches(*world, floor, b));
     auto states = statesOf(*world, s);
-    states[static_cast<std::size_t>(b)] = {{1.0, 0.5, 0.0}, {}, {}, {}};
+    states[b] = {{1.0, 0.5, 0.0}, {}, {}, {}};
     setter->setStates(states);
     run(*world, 24);
     EXPECT_TRUE(touches(*world, floor, b)) << "it rests on the floor";
     within("set_state_rest", std::abs(stateOf(*world, s, b).position.y - 0.5), 0.03);
-    states[static_cast<std::size_t>(b)] = {{1.0, 10.0, 0.0}, {}, {}, {}};
+    states[b] = {{1.0, 10.0, 0.0}, {}, {}, {}};
     setter->setStates(states);
     run(*world, 24);
     EXPECT_FALSE(touches(*world, floor, b));
@@ -145,7 +145,7 @@ TEST_P(StateSettingTest, WhoSleptIsAwake) {
     if (setter == nullptr) GTEST_SKIP() << "this world cannot be put somewhere else";
     run(*world, 300);
     auto states = statesOf(*world, s);
-    states[static_cast<std::size_t>(b)].position.y = 10.0;
+    states[b].position.y = 10.0;
     setter->setStates(states);
     run(*world, 30);
     EXPECT_LT(stateOf(*world, s, b).position.y, 9.0);

@@ -40,7 +40,7 @@ std::unique_ptr<Manager> spatialHash(std::span<const Aabb> boxes) {
         low = low.cwiseMin(toFcl(box.min));
         high = high.cwiseMax(toFcl(box.max));
         const adapter::Vec3 size = box.max - box.min;
-        extent += std::max({size.x, size.y, size.z}) / static_cast<double>(boxes.size());
+        extent += std::max({size.x, size.y, size.z}) / boxes.size();
     }
     const fcl::Vector3d room = 0.5 * (high - low);
     low -= room;

@@ -185,7 +185,7 @@ fcl::GJKSolverType solverOf(const std::string& algorithm) {
 class FclBatch final : public adapter::CollisionBatch {
   public:
     explicit FclBatch(std::span<const CollisionQuery> queries)
-        : request_(static_cast<std::size_t>(std::max(1, queries.front().maxContacts)), true) {
+        : request_(std::max(1, queries.front().maxContacts), true) {
         request_.gjk_solver_type = solverOf(queries.front().algorithm);
         for (const CollisionQuery& query : queries) {
             sides_.push_back(toFcl(solidOf(*query.a.geometry, query.dimension), query.a.pose));
@@ -259,7 +259,7 @@ CollisionAnswer FclCollisionEngine::collide(const CollisionQuery& query) const {
         if (answer.witnessA) answer.witnessA->z = answer.witnessB->z = 0.0;
     }
     if (answer.contacts.size() > static_cast<std::size_t>(query.maxContacts))
-        answer.contacts.resize(static_cast<std::size_t>(query.maxContacts));
+        answer.contacts.resize(query.maxContacts);
     return answer;
 }
 

@@ -49,12 +49,12 @@ struct ToGeometry {
     std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::ConvexHull& hull) {
         const scenario::HullMesh mesh = scenario::convexHull3d(hull.vertices);
         // The solvers start from the frame's origin, which has to be inside.
-        for (const Vec3& v : mesh.vertices) origin += v / static_cast<double>(mesh.vertices.size());
+        for (const Vec3& v : mesh.vertices) origin += v / mesh.vertices.size();
         auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
         for (const Vec3& v : mesh.vertices) vertices->push_back(toFcl(v - origin));
         auto faces = std::make_shared<std::vector<int>>();
         for (const auto& face : mesh.faces) {
-            faces->push_back(static_cast<int>(face.size()));
+            faces->push_back(face.size());
             faces->insert(faces->end(), face.begin(), face.end());
         }
         return std::make_shared<fcl::Convexd>(vertices, static_cast<int>(mesh.faces.size()), faces);

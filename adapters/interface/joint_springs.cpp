@@ -36,7 +36,7 @@ struct Side {
 Side sideOf(const Scenario& scenario, int index) {
     Side side;
     if (index == scenario::kNone) return side;
-    const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
+    const Body& body = scenario.bodies[index];
     side.pose = body.pose;
     side.center = body.pose * body.massProperties.centerOfMass;
     if (body.type != scenario::BodyType::Dynamic) return side;

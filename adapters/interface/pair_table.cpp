@@ -9,8 +9,7 @@ namespace rigor::adapter {
 
 PairTable::PairTable(const Scenario& scenario) : materials_(scenario.materials.size()) {
     for (std::size_t a = 0; a < materials_; ++a)
-        for (std::size_t b = 0; b < materials_; ++b)
-            table_.push_back(pairCoefficients(scenario, static_cast<int>(a), static_cast<int>(b)));
+        for (std::size_t b = 0; b < materials_; ++b) table_.push_back(pairCoefficients(scenario, a, b));
     for (const auto& body : scenario.bodies) {
         collides_.push_back(body.collides && !body.shapes.empty());
         dynamic_.push_back(body.type == scenario::BodyType::Dynamic);
@@ -32,10 +31,10 @@ bool PairTable::mayCollide(int bodyA, int bodyB) const {
 
 std::vector<PairTable::Example> PairTable::examples() const {
     std::map<std::pair<int, int>, Example> found;
-    const int count = static_cast<int>(materialsOf_.size());
+    const int count = materialsOf_.size();
     const auto addShapes = [&](int a, int b) {
-        const auto& ofA = materialsOf_[static_cast<std::size_t>(a)];
-        const auto& ofB = materialsOf_[static_cast<std::size_t>(b)];
+        const auto& ofA = materialsOf_[a];
+        const auto& ofB = materialsOf_[b];
         for (std::size_t i = 0; i < ofA.size(); ++i)
             for (std::size_t j = 0; j < ofB.size(); ++j) {
                 Example example{ofA[i], ofB[j], {a, static_cast<int>(i)}, {b, static_cast<int>(j)}};
@@ -57,8 +56,8 @@ std::vector<PairTable::Example> PairTable::examples() const {
 bool PairTable::mayBounce(int body) const {
     for (int other = 0; other < static_cast<int>(materialsOf_.size()); ++other) {
         if (other == body || !mayCollide(body, other)) continue;
-        for (const int mine : materialsOf_[static_cast<std::size_t>(body)])
-            for (const int theirs : materialsOf_[static_cast<std::size_t>(other)])
+        for (const int mine : materialsOf_[body])
+            for (const int theirs : materialsOf_[other])
                 if (coefficients(mine, theirs).restitution > 0.0) return true;
     }
     return false;

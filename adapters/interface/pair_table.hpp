@@ -19,7 +19,7 @@ class PairTable {
     explicit PairTable(const Scenario& scenario);
 
     const scenario::PairCoefficients& coefficients(int materialA, int materialB) const {
-        return table_[static_cast<std::size_t>(materialA) * materials_ + static_cast<std::size_t>(materialB)];
+        return table_[materialA * materials_ + materialB];
     }
 
     /// Same as scenario::mayCollide; bodies without shapes never collide.

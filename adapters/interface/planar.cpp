@@ -16,7 +16,7 @@ Geometry strip(const std::vector<Vec3>& points, bool loop) {
     TriangleMesh mesh;
     for (const Vec3& p : points)
         for (const double z : {-kPlanarHalfDepth, kPlanarHalfDepth}) mesh.vertices.push_back({p.x, p.y, z});
-    const int count = static_cast<int>(points.size());
+    const int count = points.size();
     for (int i = 0; i + (loop ? 0 : 1) < count; ++i) {
         const int here = 2 * i, next = 2 * ((i + 1) % count);
         mesh.triangles.push_back({here, here + 1, next});

@@ -29,9 +29,7 @@ void TimedBroadPhase::update(std::span<const Aabb> boxes, std::vector<Pair>& pai
     if (boxes.empty()) return;
     run();
     held(pairs);
-    std::erase_if(pairs, [boxes](const Pair& pair) {
-        return !overlap(boxes[static_cast<std::size_t>(pair.a)], boxes[static_cast<std::size_t>(pair.b)]);
-    });
+    std::erase_if(pairs, [boxes](const Pair& pair) { return !overlap(boxes[pair.a], boxes[pair.b]); });
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }

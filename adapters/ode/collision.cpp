@@ -36,7 +36,7 @@ class OdeBatch final : public adapter::CollisionBatch {
             sides_.push_back(
                 std::make_unique<Geom>(solidOf(*query.b.geometry, query.dimension), query.b.pose));
         }
-        found_.resize(static_cast<std::size_t>(most_));
+        found_.resize(most_);
     }
     std::size_t run() override {
         useLibrary();
@@ -93,7 +93,7 @@ adapter::CollisionAnswer OdeCollisionEngine::collide(const adapter::CollisionQue
                          behind);
         points.insert(points.end(), behind.begin(), behind.end());
     }
-    reducePoints(static_cast<std::size_t>(query.maxContacts), points);
+    reducePoints(query.maxContacts, points);
 
     adapter::CollisionAnswer answer;
     answer.overlap = !points.empty();

@@ -54,7 +54,7 @@ void collideGeoms(dGeomID a, dGeomID b, bool planar, std::vector<FoundPoint>& po
     const int count = dCollide(a, b, kMostPoints, found.data(), sizeof(dContactGeom));
     points.clear();
     for (int i = 0; i < count; ++i) {
-        const dContactGeom& c = found[static_cast<std::size_t>(i)];
+        const dContactGeom& c = found[i];
         const Vec3 normal = -fromOde(c.normal);
         // Centers that coincide leave some pairs without a direction.
         if (!(std::abs(norm(normal) - 1.0) < 1e-6)) continue;

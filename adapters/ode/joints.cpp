@@ -236,7 +236,7 @@ bool OdeJoint::buildSixDofTravels() {
         const dJointID id =
             slider ? dJointCreateSlider(world_, nullptr) : dJointCreatePiston(world_, nullptr);
         dJointAttach(id, b_.body, a_.body);
-        const Vec3 along = motion_.axis(static_cast<int>(k)), p = motion_.anchorA();
+        const Vec3 along = motion_.axis(k), p = motion_.anchorA();
         if (slider) {
             dJointSetSliderAxis(id, along.x, along.y, along.z);
         } else {
@@ -253,7 +253,7 @@ bool OdeJoint::buildSixDofTravels() {
         return true;
     }
     for (int i = 0; i < (planar_ ? 2 : 3); ++i) {
-        const JointAxis& travel = joint_.axes[static_cast<std::size_t>(i)];
+        const JointAxis& travel = joint_.axes[i];
         if (onlyHeld(travel)) addPointRow(travel, i, PointRow::Holds);
         if (travel.mode == AxisMode::Limited) addPointRow(travel, i, PointRow::Stops);
         if (travel.hasMotor()) addPointRow(travel, i, PointRow::Drives);

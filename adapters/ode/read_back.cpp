@@ -14,7 +14,7 @@ adapter::ReadBack OdeWorld::readBack() const {
     for (std::size_t i = 0; i < records_.size(); ++i) {
         const BodyRecord& record = *records_[i];
         adapter::BodyReadBack body;
-        body.state = stateOf(static_cast<int>(i));
+        body.state = stateOf(i);
         body.centerOfMass = record.com;
         if (record.body != nullptr && !record.geoms.empty()) {
             // The place of the first shape relative to the centre of mass gives the centre of mass in the

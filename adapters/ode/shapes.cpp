@@ -63,9 +63,9 @@ Geom::~Geom() {
 
 void Geom::createConvex(const scenario::ConvexHull& hull) {
     const scenario::HullMesh mesh = scenario::convexHull3d(hull.vertices);
-    for (const Vec3& v : mesh.vertices) frame_.position += v / static_cast<double>(mesh.vertices.size());
+    for (const Vec3& v : mesh.vertices) frame_.position += v / mesh.vertices.size();
     convex_ = std::make_unique<Convex>();
-    const auto corner = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)] - frame_.position; };
+    const auto corner = [&](int i) { return mesh.vertices[i] - frame_.position; };
     for (int i = 0; i < static_cast<int>(mesh.vertices.size()); ++i)
         for (const double c : {corner(i).x, corner(i).y, corner(i).z}) convex_->points.push_back(c);
     for (const auto& face : mesh.faces) {
@@ -73,16 +73,15 @@ void Geom::createConvex(const scenario::ConvexHull& hull) {
         Vec3 n, middle;
         for (std::size_t i = 0; i < face.size(); ++i) {
             n += cross(corner(face[i]), corner(face[(i + 1) % face.size()]));
-            middle += corner(face[i]) / static_cast<double>(face.size());
+            middle += corner(face[i]) / face.size();
         }
         n = n / norm(n);
         for (const double c : {n.x, n.y, n.z, dot(n, middle)}) convex_->planes.push_back(c);
-        convex_->polygons.push_back(static_cast<unsigned>(face.size()));
-        for (const int i : face) convex_->polygons.push_back(static_cast<unsigned>(i));
+        convex_->polygons.push_back(face.size());
+        for (const int i : face) convex_->polygons.push_back(i);
     }
-    id_ = dCreateConvex(nullptr, convex_->planes.data(), static_cast<unsigned>(mesh.faces.size()),
-                        convex_->points.data(), static_cast<unsigned>(mesh.vertices.size()),
-                        convex_->polygons.data());
+    id_ = dCreateConvex(nullptr, convex_->planes.data(), mesh.faces.size(), convex_->points.data(),
+                        mesh.vertices.size(), convex_->polygons.data());
 }
 
 Geom::Mesh::~Mesh() {
@@ -98,13 +97,13 @@ void Geom::createMesh(const scenario::TriangleMesh& mesh) {
     for (const Vec3& v : mesh.vertices)
         for (const double c : {v.x, v.y, v.z, 0.0}) mesh_->vertices.push_back(c);
     for (const auto& t : mesh.triangles) {
-        for (const int i : {t[0], t[1], t[2]}) mesh_->front.push_back(static_cast<dTriIndex>(i));
-        for (const int i : {t[0], t[2], t[1]}) mesh_->back.push_back(static_cast<dTriIndex>(i));
+        for (const int i : {t[0], t[1], t[2]}) mesh_->front.push_back(i);
+        for (const int i : {t[0], t[2], t[1]}) mesh_->back.push_back(i);
     }
     const auto create = [&](dTriMeshDataID& data, const std::vector<dTriIndex>& indices) {
         data = dGeomTriMeshDataCreate();
-        dGeomTriMeshDataBuildSimple(data, mesh_->vertices.data(), static_cast<int>(mesh.vertices.size()),
-                                    indices.data(), static_cast<int>(indices.size()));
+        dGeomTriMeshDataBuildSimple(data, mesh_->vertices.data(), mesh.vertices.size(), indices.data(),
+                                    indices.size());
         // Convex geoms raise an error at meshes without the angles between their faces.
         dGeomTriMeshDataPreprocess2(data, 1U << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES, nullptr);
         return dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr);

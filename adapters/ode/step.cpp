@@ -29,7 +29,7 @@ constexpr double kNoDirection = 1e-12;
 }  // namespace
 
 void OdeWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
-    const BodyRecord& record = *records_[static_cast<std::size_t>(body)];
+    const BodyRecord& record = *records_[body];
     if (!record.dynamic) return;
     dBodyAddForce(record.body, force.x, force.y, force.z);
     dBodyAddTorque(record.body, torque.x, torque.y, torque.z);
@@ -63,7 +63,7 @@ void OdeWorld::doStep() {
     breakJoints();
     counters_.phaseSeconds["solve_and_integrate"] = secondsSince(solving);
     dJointGroupEmpty(contactGroup_);
-    counters_.contacts = static_cast<std::int64_t>(contacts_.size());
+    counters_.contacts = contacts_.size();
     messages_ += messageCount() - messagesBefore;
     ++steps_;
 }
@@ -115,14 +115,14 @@ void OdeWorld::findContacts() {
         return std::tuple(a.body, b.body, a.shape, b.shape, a.back, b.back);
     };
     std::sort(near_.begin(), near_.end(), [&](const auto& p, const auto& q) { return key(p) < key(q); });
-    counters_.pairs = static_cast<std::int64_t>(near_.size());
+    counters_.pairs = near_.size();
     for (const auto& [a, b] : near_) {
         findPoints(a, b);
         if (found_.empty()) continue;
         const GeomTag &tagA = Geom::tagOf(a), &tagB = Geom::tagOf(b);
         const auto shapePose = [&](const GeomTag& tag) {
-            const auto& shapes = scenario_.bodies[static_cast<std::size_t>(tag.body)].shapes;
-            return poseOf(tag.body) * shapes[static_cast<std::size_t>(tag.shape)].pose;
+            const auto& shapes = scenario_.bodies[tag.body].shapes;
+            return poseOf(tag.body) * shapes[tag.shape].pose;
         };
         for (const FoundPoint& point : found_)
             contacts_.push_back({tagA, tagB, point, shapePose(tagA), shapePose(tagB), {}, false});
@@ -141,8 +141,8 @@ void OdeWorld::findPoints(dGeomID a, dGeomID b) {
 /// All of `contacts_` exists before the first joint does, because ODE writes the forces back into it.
 void OdeWorld::createContactJoints() {
     for (StepContact& c : contacts_) {
-        const dBodyID bodyA = records_[static_cast<std::size_t>(c.a.body)]->body;
-        const dBodyID bodyB = records_[static_cast<std::size_t>(c.b.body)]->body;
+        const dBodyID bodyA = records_[c.a.body]->body;
+        const dBodyID bodyB = records_[c.b.body]->body;
         dContact contact{};
         contact.surface =
             surfaceFor(pairs_.coefficients(c.a.material, c.b.material), bounceThreshold_, contactCfm_);
@@ -160,7 +160,7 @@ void OdeWorld::createContactJoints() {
 
 /// The velocity that a point of a body would have at the end of the step without contacts and joints.
 Vec3 OdeWorld::freeVelocityAt(int body, const Vec3& point) const {
-    const BodyRecord& record = *records_[static_cast<std::size_t>(body)];
+    const BodyRecord& record = *records_[body];
     if (record.body == nullptr) return {};
     Vec3 velocity = fromOde(dBodyGetLinearVel(record.body));
     Vec3 turning = fromOde(dBodyGetAngularVel(record.body));
@@ -199,7 +199,7 @@ void OdeWorld::advance() {
     const bool tooMany = !quickStep_ && worldStepLimit_ > 0 && contacts_.size() > worldStepLimit_;
     if (quickStep_ || tooMany) {
         const std::lock_guard lock(randomMutex());
-        dRandSetSeed(static_cast<unsigned long>(adapter::integerSetting(settings_, "seed")));
+        dRandSetSeed(adapter::integerSetting(settings_, "seed"));
         dWorldQuickStep(world_, dt_);
         counters_.solverIterations = dWorldGetQuickStepNumIterations(world_);
         if (tooMany) ++fallbackSteps_;

@@ -31,8 +31,8 @@ OdeWorld::OdeWorld(const Scenario& scenario, double dt, const Settings& settings
       quickStep_(is("stepper", "quickstep")),
       externalGyro_(!planar_ && is("gyroscopic", "external")),
       friction_(is("friction", "pyramid_velocity") ? Friction::PyramidVelocity : Friction::PyramidWorld),
-      maxContacts_(static_cast<std::size_t>(adapter::integerSetting(settings, "max_contacts"))),
-      worldStepLimit_(static_cast<std::size_t>(adapter::integerSetting(settings, "worldstep_limit"))),
+      maxContacts_(adapter::integerSetting(settings, "max_contacts")),
+      worldStepLimit_(adapter::integerSetting(settings, "worldstep_limit")),
       bounceThreshold_(numberSetting(settings, "bounce_threshold")),
       contactCfm_(numberSetting(settings, "contact_cfm")),
       pairs_(scenario_) {
@@ -103,7 +103,7 @@ void OdeWorld::createSpace() {
 }
 
 void OdeWorld::addBody(int index) {
-    const scenario::Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+    const scenario::Body& body = scenario_.bodies[index];
     auto record = std::make_unique<BodyRecord>();
     record->com = body.massProperties.centerOfMass;
     if (body.type != BodyType::Static) addDynamics(body, *record);
@@ -169,7 +169,7 @@ Pose OdeWorld::poseOf(int index) const {
 BodyState OdeWorld::stateOf(int index) const {
     const Pose pose = poseOf(index);
     BodyState state{pose.position, pose.orientation, {}, {}};
-    const BodyRecord& record = *records_[static_cast<std::size_t>(index)];
+    const BodyRecord& record = *records_[index];
     if (record.body != nullptr) {
         state.velocity = fromOde(dBodyGetLinearVel(record.body));
         state.angularVelocity = fromOde(dBodyGetAngularVel(record.body));
@@ -178,20 +178,20 @@ BodyState OdeWorld::stateOf(int index) const {
 }
 
 void OdeWorld::readStates(std::span<BodyState> states) const {
-    for (std::size_t i = 0; i < states.size(); ++i) states[i] = stateOf(static_cast<int>(i));
+    for (std::size_t i = 0; i < states.size(); ++i) states[i] = stateOf(i);
 }
 
 bool OdeWorld::jointHolds(int joint) const {
-    return joints_[static_cast<std::size_t>(joint)]->holds();
+    return joints_[joint]->holds();
 }
 
 void OdeWorld::readContacts(std::vector<adapter::ContactPoint>& contacts) const {
     contacts.clear();
     for (const StepContact& c : contacts_) {
-        const auto& shapesA = scenario_.bodies[static_cast<std::size_t>(c.a.body)].shapes;
-        const auto& shapesB = scenario_.bodies[static_cast<std::size_t>(c.b.body)].shapes;
-        const adapter::PosedShape a{&shapesA[static_cast<std::size_t>(c.a.shape)].geometry, c.poseA};
-        const adapter::PosedShape b{&shapesB[static_cast<std::size_t>(c.b.shape)].geometry, c.poseB};
+        const auto& shapesA = scenario_.bodies[c.a.body].shapes;
+        const auto& shapesB = scenario_.bodies[c.b.body].shapes;
+        const adapter::PosedShape a{&shapesA[c.a.shape].geometry, c.poseA};
+        const adapter::PosedShape b{&shapesB[c.b.shape].geometry, c.poseB};
         const auto [onA, onB] = adapter::surfacePoints(a, b, c.point.position, c.point.normal, c.point.depth);
         const double sign = c.feedbackOnA ? -dt_ : dt_;
         const Vec3 impulse = sign * fromOde(c.feedback.f1);

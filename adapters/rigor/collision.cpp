@@ -53,7 +53,7 @@ template <class S>
 std::vector<ContactPoint> contactsOf(const engine::Manifold<S>& manifold) {
     std::vector<ContactPoint> points;
     for (int i = 0; i < manifold.count; ++i) {
-        const auto& p = manifold.points[static_cast<std::size_t>(i)];
+        const auto& p = manifold.points[i];
         ContactPoint c;
         c.bodyA = 0;
         c.bodyB = 1;
@@ -120,7 +120,7 @@ class RigorBatch final : public CollisionBatch {
         const PosedPair& p = pairs_[i];
         manifolds_[i].memory = {};
         narrowPhase_->collide(p.a, p.Xa, p.b, p.Xb, typename S::Real(0), manifolds_[i]);
-        return static_cast<std::size_t>(manifolds_[i].count);
+        return manifolds_[i].count;
     }
     std::shared_ptr<const engine::NarrowPhase<S>> narrowPhase_;
     std::vector<PosedPair> pairs_;

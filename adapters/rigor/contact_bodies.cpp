@@ -18,12 +18,11 @@ constexpr double kEqual = 1e-9;  ///< relative: files are written with 10 or mor
 template <class Action>
 void forEach(const SparseMatrix& A, int column, const Action& action) {
     const auto j = static_cast<std::size_t>(column);
-    for (int k = A.start[j]; k < A.start[j + 1]; ++k)
-        action(A.row[static_cast<std::size_t>(k)], A.value[static_cast<std::size_t>(k)]);
+    for (int k = A.start[j]; k < A.start[j + 1]; ++k) action(A.row[k], A.value[k]);
 }
 
 std::size_t place(int i) {
-    return static_cast<std::size_t>(i);
+    return i;
 }
 
 using BodyMatrix = std::array<std::array<double, 6>, 6>;
@@ -126,7 +125,7 @@ ProblemBodies readBodies(const ContactProblem& problem) {
     ProblemBodies out;
     readMasses(problem, dofs, out);
     for (std::size_t c = 0; c < problem.contacts(); ++c)
-        out.contacts.push_back(readContact(problem, dofs, static_cast<int>(c)));
+        out.contacts.push_back(readContact(problem, dofs, c));
     return out;
 }
 

@@ -109,7 +109,7 @@ void finishContact(Block<S>& block, std::vector<Row<S>>& rows, double mu) {
     for (int i = 0; i < block.rows; ++i) {
         const double K = engine::rowCoupling<S>(r[i], r[i], block);
         if (!(K > 0.0))
-            throw Unsupported("contact row " + std::to_string(block.first + static_cast<std::uint32_t>(i)) +
+            throw Unsupported("contact row " + std::to_string(block.first + i) +
                               " has no K > 0: nothing can follow it");
         r[i].invK = 1.0 / K;
     }
@@ -131,13 +131,13 @@ class OnBodies final : public EngineSolve<S> {
         for (std::size_t c = 0; c < given.contacts.size(); ++c) {
             const ProblemContact& contact = given.contacts[c];
             Block<S> block;
-            block.first = static_cast<std::uint32_t>(this->rows_.rows.size());
+            block.first = this->rows_.rows.size();
             block.a = contact.a < 0 ? none : static_cast<std::uint32_t>(contact.a);
-            block.b = static_cast<std::uint32_t>(contact.b);
+            block.b = contact.b;
             block.invMassA = contact.a < 0 ? 0.0 : 1.0 / given.bodies[block.a].mass;
             block.invMassB = 1.0 / given.bodies[block.b].mass;
             for (std::size_t i = 0; i < static_cast<std::size_t>(S::dim); ++i)
-                addRow(contact, contact.rows[i], p.w[c * static_cast<std::size_t>(S::dim) + i]);
+                addRow(contact, contact.rows[i], p.w[c * S::dim + i]);
             finishContact<S>(block, this->rows_.rows, p.mu[c]);
             this->rows_.blocks.push_back(block);
         }
@@ -157,23 +157,22 @@ class OnBodies final : public EngineSolve<S> {
         } else {
             typename S::Inertia I;
             for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j)
-                    I(i, j) = body.inertia[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+                for (int j = 0; j < 3; ++j) I(i, j) = body.inertia[i][j];
             inverse = I.inverse();
         }
         invInertia_.push_back(inverse);
         Velocity<S> v;
-        for (int i = 0; i < S::dim; ++i) v.v[i] = body.freeVelocity[static_cast<std::size_t>(i)];
+        for (int i = 0; i < S::dim; ++i) v.v[i] = body.freeVelocity[i];
         v.w = angular(body.freeVelocity.data() + S::dim);
         this->start_.push_back(v);
     }
     void addRow(const ProblemContact& contact, const ProblemContact::Row& given, double bias) {
         Row<S> row;
-        for (int i = 0; i < S::dim; ++i) row.lin[i] = given.lin[static_cast<std::size_t>(i)];
+        for (int i = 0; i < S::dim; ++i) row.lin[i] = given.lin[i];
         row.angA = angular(given.angA.data());
         row.angB = angular(given.angB.data());
-        if (contact.a >= 0) row.invIAngA = invInertia_[static_cast<std::size_t>(contact.a)] * row.angA;
-        row.invIAngB = invInertia_[static_cast<std::size_t>(contact.b)] * row.angB;
+        if (contact.a >= 0) row.invIAngA = invInertia_[contact.a] * row.angA;
+        row.invIAngB = invInertia_[contact.b] * row.angB;
         row.bias = row.relaxedBias = bias;
         this->rows_.rows.push_back(row);
     }
@@ -201,7 +200,7 @@ class OnMatrix final : public EngineSolve<MatrixSpace<D>> {
         }
         for (std::size_t c = 0; c < p.contacts(); ++c) {
             Block<S> block;
-            block.first = static_cast<std::uint32_t>(c * static_cast<std::size_t>(D));
+            block.first = static_cast<std::uint32_t>(c * D);
             block.invMassB = 1;
             finishContact<S>(block, this->rows_.rows, p.mu[c]);
             this->rows_.blocks.push_back(block);

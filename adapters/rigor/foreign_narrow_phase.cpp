@@ -86,9 +86,9 @@ class ForeignNarrowPhase final : public engine::NarrowPhase<S> {
         int count = 0;
         for (const ContactPoint& c : answer.contacts)
             if (c.depth >= 0 && dot(c.normal, deepest->normal) > kSameNormal && count < kMostContacts)
-                used[static_cast<std::size_t>(count++)] = &c;
+                used[count++] = &c;
         out.normal = toEngineVec<S>(deepest->normal).normalized();
-        const auto at = [&](int i) -> const ContactPoint& { return *used[static_cast<std::size_t>(i)]; };
+        const auto at = [&](int i) -> const ContactPoint& { return *used[i]; };
         engine::reducePoints<S>(
             count, out.normal, [&](int i) { return R(-at(i).depth); },
             [&](int i) { return V(toEngineVec<S>(at(i).pointB)); },

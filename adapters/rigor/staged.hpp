@@ -89,7 +89,7 @@ class RigorStaged final : public StagedWorld {
             if (!world_.contains(indices_.joint[j])) continue;
             const auto [first, count] = world_.jointRows(indices_.joint[j]);
             for (std::size_t i = first; i < std::min<std::size_t>(first + count, result.size()); ++i)
-                result[i].joint = static_cast<int>(j);
+                result[i].joint = j;
         }
         return result;
     }

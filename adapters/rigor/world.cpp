@@ -100,7 +100,7 @@ class RigorWorld final : public World, public StateSetting {
     }
 
     void applyForce(int body, const Vec3& force, const Vec3& torque) override {
-        if (scenario_.bodies[static_cast<std::size_t>(body)].type != scenario::BodyType::Dynamic) return;
+        if (scenario_.bodies[body].type != scenario::BodyType::Dynamic) return;
         world_.applyForce(id(body), toEngineVec<S>(force), toEngineAng<S>(torque));
     }
     bool evaluatesForces() const override { return true; }
@@ -114,18 +114,17 @@ class RigorWorld final : public World, public StateSetting {
     void step() override { world_.step(dt_); }
 
     void readStates(std::span<BodyState> states) const override {
-        for (std::size_t i = 0; i < bodies_.size(); ++i) states[i] = state(static_cast<int>(i));
+        for (std::size_t i = 0; i < bodies_.size(); ++i) states[i] = state(i);
     }
 
     /// The engine moves no body by hand: its world is built anew where it is to be, with empty caches.
     void setStates(std::span<const BodyState> states) override {
         std::vector<bool> holds;
-        for (std::size_t j = 0; j < scenario_.joints.size(); ++j)
-            holds.push_back(jointHolds(static_cast<int>(j)));
+        for (std::size_t j = 0; j < scenario_.joints.size(); ++j) holds.push_back(jointHolds(j));
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
             scenario::Body& body = scenario_.bodies[i];
             if (body.type == scenario::BodyType::Static) continue;
-            const BodyState now = isDynamic(static_cast<int>(i)) ? states[i] : state(static_cast<int>(i));
+            const BodyState now = isDynamic(i) ? states[i] : state(i);
             body.pose = {now.position, now.orientation};
             body.velocity = now.velocity;
             body.angularVelocity = now.angularVelocity;
@@ -171,7 +170,7 @@ class RigorWorld final : public World, public StateSetting {
             b.mass = static_cast<double>(body.mass);
             b.centerOfMass = fromEngineVec(body.centerOfMass);
             b.inertia = fromEngineInertia<S>(body.inertia);
-            b.state = state(static_cast<int>(i));
+            b.state = state(i);
             if (moves) b.gravity = fromEngineVec(typename S::Vec(body.gravityScale * world_.def().gravity));
             result.bodies.push_back(b);
         }
@@ -195,9 +194,9 @@ class RigorWorld final : public World, public StateSetting {
     StepCounters counters() const override {
         const engine::StepResult<S>& last = world_.lastStep();
         StepCounters c;
-        c.pairTests = static_cast<std::int64_t>(last.pairTests);
-        c.pairs = static_cast<std::int64_t>(last.pairs);
-        c.contacts = static_cast<std::int64_t>(last.contacts);
+        c.pairTests = last.pairTests;
+        c.pairs = last.pairs;
+        c.contacts = last.contacts;
         c.solverIterations = last.iterations;
         if (!last.residuals.empty()) c.residual = static_cast<double>(last.residuals.back());
         for (std::size_t i = 0; i < engine::kPhases; ++i)
@@ -222,26 +221,21 @@ class RigorWorld final : public World, public StateSetting {
         return Scheme::Unknown;
     }
 
-    bool jointHolds(int joint) const override {
-        return world_.contains(indices_.joint[static_cast<std::size_t>(joint)]);
-    }
+    bool jointHolds(int joint) const override { return world_.contains(indices_.joint[joint]); }
     bool isAsleep(int body) const override { return isDynamic(body) && world_.isAsleep(id(body)); }
     StagedWorld* staged() override { return &staged_; }
     Snapshots* snapshots() override { return &snapshots_; }
 
   private:
-    engine::BodyId id(int body) const {
-        return body == scenario::kNone ? engine::BodyId{} : bodies_[static_cast<std::size_t>(body)];
-    }
+    engine::BodyId id(int body) const { return body == scenario::kNone ? engine::BodyId{} : bodies_[body]; }
     bool isEuler() const {
         return engine::integratorTraits(world_.def().integrator).forces == engine::ForceTimes::Start;
     }
     bool isDynamic(int body) const {
-        return body != scenario::kNone &&
-               scenario_.bodies[static_cast<std::size_t>(body)].type == scenario::BodyType::Dynamic;
+        return body != scenario::kNone && scenario_.bodies[body].type == scenario::BodyType::Dynamic;
     }
     /// The engine's material 0 is its own.
-    static std::uint32_t material(int index) { return static_cast<std::uint32_t>(index + 1); }
+    static std::uint32_t material(int index) { return index + 1; }
 
     BodyState state(int body) const {
         const engine::Pose<S> X = world_.pose(id(body));
@@ -267,7 +261,7 @@ class RigorWorld final : public World, public StateSetting {
                 return std::minmax(pair.a, pair.b) == std::minmax(a, b);
             });
         };
-        const int count = static_cast<int>(scenario_.materials.size());
+        const int count = scenario_.materials.size();
         for (const scenario::Material& m : scenario_.materials)
             world_.addMaterial(static_cast<R>(m.friction), static_cast<R>(m.restitution),
                                static_cast<R>(m.staticFriction));
@@ -307,7 +301,7 @@ class RigorWorld final : public World, public StateSetting {
             shape.material = material(body.shapes[i].material);
             const engine::ShapeId shapeId = world_.addShape(added, shape);
             indices_.shape.resize(shapeId.index + 1);
-            indices_.shape[shapeId.index] = static_cast<int>(i);
+            indices_.shape[shapeId.index] = i;
         }
     }
 

@@ -120,7 +120,7 @@ TEST(Box2dBroadPhase, AgreesWithBruteForceWhileBoxesMove) {
         std::vector<Pair> expected;
         for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
             for (int j = i + 1; j < static_cast<int>(boxes.size()); ++j) {
-                const Aabb &a = boxes[static_cast<std::size_t>(i)], &b = boxes[static_cast<std::size_t>(j)];
+                const Aabb &a = boxes[i], &b = boxes[j];
                 if (a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y)
                     expected.push_back({i, j});
             }

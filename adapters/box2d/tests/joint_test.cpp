@@ -183,8 +183,7 @@ TEST(Box2dSixDof, MovesWhatIsFreeAlone) {
         Joint joint = onWorld(JointType::SixDof, b, {2, 1, 0});
         joint.axisA = joint.axisB = {0.6, 0.8, 0};
         for (int k = 0; k < 3; ++k)
-            joint.axes[static_cast<std::size_t>(k)].mode =
-                (free >> k & 1) != 0 ? scenario::AxisMode::Free : scenario::AxisMode::Locked;
+            joint.axes[k].mode = (free >> k & 1) != 0 ? scenario::AxisMode::Free : scenario::AxisMode::Locked;
         s.joints.push_back(joint);
         Simulation run(s, kStep);
         const Vec3 x{0.6, 0.8, 0}, y{-0.8, 0.6, 0};

@@ -53,7 +53,7 @@ class BulletSixDof : public ::testing::TestWithParam<int> {
         (k < 3 ? s.bodies[0].velocity : s.bodies[0].angularVelocity) = along;
         Joint j = joint(JointType::SixDof, scenario::kNone, b, {}, {}, kX);
         j.normalA = kY;
-        j.axes[static_cast<std::size_t>(k)] = axis;
+        j.axes[k] = axis;
         s.joints.push_back(j);
         return s;
     }

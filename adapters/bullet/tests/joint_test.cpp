@@ -42,7 +42,7 @@ double worstGap(Simulation& run, const Joint& j, int steps) {
 /// A hanging body with its centre of mass off its frame and a full tensor: anchors go through that frame.
 int addOffsetBody(Scenario& s, Vec3 position) {
     const int body = addBody(s, Box{{0.1, 0.1, 0.1}}, position, 2.0);
-    auto& properties = s.bodies[static_cast<std::size_t>(body)].massProperties;
+    auto& properties = s.bodies[body].massProperties;
     const Mat3 turn = toMatrix(normalized(Quat{0.8, 0.1, 0.5, -0.3}));
     properties.inertia = turn * Mat3::diagonal(0.04, 0.05, 0.06) * transpose(turn);
     properties.centerOfMass = {0.05, -0.1, 0.02};

@@ -45,8 +45,8 @@ class FreeFlightWorld final : public World {
     }
 
     void applyForce(int body, const Vec3& force, const Vec3& torque) override {
-        bodies_[static_cast<std::size_t>(body)].force += force;
-        bodies_[static_cast<std::size_t>(body)].torque += torque;
+        bodies_[body].force += force;
+        bodies_[body].torque += torque;
     }
 
     void step() override {

@@ -51,7 +51,7 @@ inline Trajectory adapterRun(const std::string& specText, const Scenario& scene,
     world->readStates(trajectory[0]);
     for (int i = 1; i <= steps; ++i) {
         world->step();
-        world->readStates(trajectory[static_cast<std::size_t>(i)]);
+        world->readStates(trajectory[i]);
         if (holds != nullptr) holds->push_back(world->jointHolds(0));
     }
     return trajectory;

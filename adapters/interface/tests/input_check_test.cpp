@@ -273,7 +273,7 @@ TEST(Planar, ChainsBecomeStripsOfTriangles) {
         std::set<std::pair<double, double>> columns;
         std::set<double> depths;
         for (const int i : triangle) {
-            const Vec3& v = closed.vertices[static_cast<std::size_t>(i)];
+            const Vec3& v = closed.vertices[i];
             columns.insert({v.x, v.y});
             depths.insert(v.z);
         }

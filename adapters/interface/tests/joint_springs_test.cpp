@@ -34,9 +34,7 @@ int addBody(Scenario& s, double mass, const Vec3& moments, const Vec3& position)
 }
 /// A joint at a point of the world; bodies are not turned.
 Joint jointAt(const Scenario& s, JointType type, int a, int b, const Vec3& anchor, const Vec3& axis) {
-    const auto local = [&](int body) {
-        return body < 0 ? anchor : anchor - s.bodies[static_cast<std::size_t>(body)].pose.position;
-    };
+    const auto local = [&](int body) { return body < 0 ? anchor : anchor - s.bodies[body].pose.position; };
     Joint joint;
     joint.type = type;
     joint.bodyA = a;
@@ -64,7 +62,7 @@ TEST(EffectiveMass, OfTwoBodiesIsTheReducedOne) {
     EXPECT_NEAR(effectiveMass(s, rod, 0), 2.0 * 3.0 / 5.0, 1e-14);
     const Joint slider = jointAt(s, JointType::Slider, a, b, {1, 0, 0}, {1, 0, 0});
     EXPECT_NEAR(effectiveMass(s, slider, 0), 2.0 * 3.0 / 5.0, 1e-14);
-    s.bodies[static_cast<std::size_t>(a)].type = BodyType::Kinematic;
+    s.bodies[a].type = BodyType::Kinematic;
     EXPECT_NEAR(effectiveMass(s, slider, 0), 3.0, 1e-14);
 }
 

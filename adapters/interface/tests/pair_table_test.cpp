@@ -49,8 +49,7 @@ TEST(PairTable, AgreesWithTheScenarioModel) {
         for (int a = 0; a < 8; ++a)
             for (int b = 0; b < 8; ++b) {
                 if (a == b) continue;
-                const bool shapes = !s.bodies[static_cast<std::size_t>(a)].shapes.empty() &&
-                                    !s.bodies[static_cast<std::size_t>(b)].shapes.empty();
+                const bool shapes = !s.bodies[a].shapes.empty() && !s.bodies[b].shapes.empty();
                 EXPECT_EQ(table.mayCollide(a, b), shapes && mayCollide(s, a, b))
                     << seed << " " << a << " " << b;
             }
@@ -67,9 +66,7 @@ TEST(PairTable, ExamplesNameShapesOfTheirMaterialsThatMayTouch) {
             EXPECT_LE(m.materialA, m.materialB);
             EXPECT_TRUE(table.mayCollide(m.a.body, m.b.body));
             const auto materialOf = [&](const PairTable::ShapeRef& r) {
-                return s.bodies[static_cast<std::size_t>(r.body)]
-                    .shapes[static_cast<std::size_t>(r.shape)]
-                    .material;
+                return s.bodies[r.body].shapes[r.shape].material;
             };
             EXPECT_EQ(materialOf(m.a), m.materialA);
             EXPECT_EQ(materialOf(m.b), m.materialB);

@@ -120,7 +120,7 @@ class Simulation {
     BodyState state(int body) const {
         std::vector<BodyState> states(count_);
         world->readStates(states);
-        return states[static_cast<std::size_t>(body)];
+        return states[body];
     }
     std::vector<ContactPoint> contacts() const {
         std::vector<ContactPoint> found;

@@ -83,7 +83,7 @@ TEST(OdeContacts, PointFromAToBWhicheverBodyComesFirst) {
         addStatic(s, Box{{2, 0.5, 2}}, {0, -0.5, 0});
         if (!ballFirst) addBall();
         const int ball = ballFirst ? 0 : 1;
-        s.bodies[static_cast<std::size_t>(ball)].velocity = {1, -2, 0};
+        s.bodies[ball].velocity = {1, -2, 0};
         Simulation run(s, 1.0 / 240);
         const auto contacts = run.steps(1).contacts();
         ASSERT_EQ(contacts.size(), 1u);

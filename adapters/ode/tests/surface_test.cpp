@@ -89,7 +89,7 @@ TEST(OdeSurfaces, AHeightFieldStandsWhereItsFrameSays) {
         Scenario one = s;
         one.gravity = {};
         const int b = addBody(one, Sphere{0.1}, {x, 3.0, z});
-        one.bodies[static_cast<std::size_t>(b)].velocity = {0, -1, 0};
+        one.bodies[b].velocity = {0, -1, 0};
         Simulation simulation(one, 1e-3);
         for (int i = 0; i < 3000; ++i)
             if (!simulation.steps(1).contacts().empty()) break;

@@ -141,7 +141,7 @@ TEST(OdePlanar, BodiesNeverLeaveThePlane) {
     addStatic(s, HalfSpace{});
     for (int i = 0; i < 4; ++i) {
         const int b = addBody(s, Box{{0.3, 0.2, 0}}, {0.1 * i, 0.4 + 0.6 * i, 0}, 1.0, even(0.05));
-        s.bodies[static_cast<std::size_t>(b)].angularVelocity = {0, 0, 1.0 * i};
+        s.bodies[b].angularVelocity = {0, 0, 1.0 * i};
     }
     Simulation simulation(s, 1.0 / 120.0);
     simulation.seconds(2.0);

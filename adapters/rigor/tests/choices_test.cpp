@@ -118,7 +118,7 @@ Signature signatureOf(const std::string& options) {
         for (int i = 0; i < each.steps; ++i) {
             run.steps(1);
             for (std::size_t b = 0; b < each.scenario.bodies.size(); ++b) {
-                const BodyState x = run.state(static_cast<int>(b));
+                const BodyState x = run.state(b);
                 for (const double v :
                      {x.position.x, x.position.y, x.position.z, x.orientation.w, x.orientation.x,
                       x.orientation.y, x.orientation.z, x.velocity.x, x.velocity.y, x.velocity.z,
@@ -126,8 +126,8 @@ Signature signatureOf(const std::string& options) {
                     Signature::mix(result.motion, v);
             }
             const auto counted = run.world->counters();
-            Signature::mix(result.work, static_cast<double>(counted.pairTests));
-            Signature::mix(result.work, static_cast<double>(counted.pairs));
+            Signature::mix(result.work, counted.pairTests);
+            Signature::mix(result.work, counted.pairs);
             Signature::mix(result.work, counted.solverIterations);
             Signature::mix(result.work, counted.residual);
         }

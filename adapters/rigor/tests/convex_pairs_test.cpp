@@ -64,7 +64,7 @@ void checkPair(const Posed& a, const Posed& b, double d, double size, double tol
         if (m.count == 0) continue;
         double found = 1e300;
         for (int i = 0; i < m.count; ++i)
-            found = std::min(found, static_cast<double>(m.points[static_cast<std::size_t>(i)].separation));
+            found = std::min(found, static_cast<double>(m.points[i].separation));
         EXPECT_NEAR(along(m.normal), found, tolerance);
         EXPECT_LE(found, d + tolerance);
         const bool exact = std::string(entry.name) != "mpr", shallow = d > -0.05 * size;

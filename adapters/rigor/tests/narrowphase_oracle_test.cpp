@@ -95,7 +95,7 @@ class NarrowPhaseAgainstOracle : public testing::Test {
         ASSERT_GT(m.count, 0) << "signed distance " << d;
         double least = 1e300;
         for (int i = 0; i < m.count; ++i) {
-            const auto& p = m.points[static_cast<std::size_t>(i)];
+            const auto& p = m.points[i];
             const Vec3 pA = fromEngineVec(p.pointA), pB = fromEngineVec(p.pointB);
             const Vec3 n = fromEngineVec(m.normal);
             least = std::min(least, static_cast<double>(p.separation));

@@ -13,9 +13,8 @@ TEST(PlainBox2d, Stack) {
     addFixture(*bodies[0], box(50.0f, 10.0f), 0.5f);
     for (int row = 0; row < 4; ++row)
         for (int i = 0; i < 4 - row; ++i) {
-            const float x = 1.125f * static_cast<float>(i) + 0.5625f * static_cast<float>(row);
-            bodies.push_back(
-                makeBody(world, b2_dynamicBody, {x, 0.5625f + 1.125f * static_cast<float>(row)}));
+            const float x = 1.125f * i + 0.5625f * row;
+            bodies.push_back(makeBody(world, b2_dynamicBody, {x, 0.5625f + 1.125f * row}));
             addBox(*bodies.back(), 0.5, 0.5, 0.5f);
         }
     const Trajectory plain = run(world, bodies, 1.0f / 60.0f, 180);

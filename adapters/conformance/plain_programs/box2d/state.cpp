@@ -40,9 +40,8 @@ struct State {
         world.CreateJoint(&joint);
     }
     void drop(int i, const b2Vec2& center) {
-        b2Body& body =
-            *add({0.37f * static_cast<float>((i * 7) % 5) - 0.7f, 0.5f + 0.6f * static_cast<float>(i)});
-        body.SetTransform(body.GetPosition(), 0.3f * static_cast<float>(i));
+        b2Body& body = *add({0.37f * static_cast<float>((i * 7) % 5) - 0.7f, 0.5f + 0.6f * i});
+        body.SetTransform(body.GetPosition(), 0.3f * i);
         b2PolygonShape shape;
         shape.SetAsBox(0.3f, 0.2f, center, 0.0f);
         addFixture(body, shape, 0.5f);

@@ -37,8 +37,7 @@ TEST(PlainOde, ABodyIsMovedBeforeItIsDamped) {
         const Trajectory adapter = adapterRun("ode:preset=default", scene, h, 90);
         for (std::size_t i = 0; i < plain.size(); ++i) {
             const Vec3 start{body == 0 ? 0.0 : 3.0, 0, 0};
-            const Vec3 off =
-                adapter[i][static_cast<std::size_t>(body)].position - start - plain[i][0].position;
+            const Vec3 off = adapter[i][body].position - start - plain[i][0].position;
             EXPECT_LE(largest(off), 1e-14) << i;
         }
     }

@@ -18,13 +18,13 @@ TEST(PlainOde, TriangleMesh) {
     for (const Vec3& v : mesh.vertices)
         for (const double c : {v.x, v.y, v.z, 0.0}) corners.push_back(c);
     for (const auto& triangle : mesh.triangles)
-        for (const int i : triangle) triangles.push_back(static_cast<dTriIndex>(i));
+        for (const int i : triangle) triangles.push_back(i);
 
     OdeSimulation demo;
     demo.surface.mu = 0.9;
     const dTriMeshDataID data = dGeomTriMeshDataCreate();
-    dGeomTriMeshDataBuildSimple(data, corners.data(), static_cast<int>(mesh.vertices.size()),
-                                triangles.data(), static_cast<int>(triangles.size()));
+    dGeomTriMeshDataBuildSimple(data, corners.data(), mesh.vertices.size(), triangles.data(),
+                                triangles.size());
     demo.inSpace(dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr));
     demo.addBody(nullptr, {0, 0, 0});
     dMass mass;

@@ -40,7 +40,7 @@ class OdeSimulation {
 
     /// A geom in the space; a later one is the second of a pair.
     dGeomID inSpace(dGeomID geom) {
-        const int number = static_cast<int>(order_.size());
+        const int number = order_.size();
         order_[geom] = number;
         dSpaceAdd(space, geom);
         return geom;
