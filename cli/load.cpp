@@ -15,7 +15,7 @@ using validation::ReferenceOutcome;
 /// "reference.timeout" of "reference_timeout".
 std::string problemId(ReferenceOutcome outcome) {
     std::string id = validation::referenceOutcomeName(outcome);
-    std::replace(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(id.find('_') + 1), '_', '.');
+    std::replace(id.begin(), id.begin() + (id.find('_') + 1), '_', '.');
     return id;
 }
 

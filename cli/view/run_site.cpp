@@ -64,7 +64,7 @@ void addContacts(ArrayBundle& bundle, const TrajectoryFile& t, std::size_t from,
         const auto it = std::lower_bound(t.times.begin(), t.times.end(), c.time - 1e-9 * t.dt);
         const auto frame = static_cast<std::size_t>(it - t.times.begin());
         if (frame < from || frame >= from + count) continue;
-        frames.push_back(static_cast<std::int32_t>(frame));
+        frames.push_back(frame);
         bodyA.push_back(c.bodyA);
         bodyB.push_back(c.bodyB);
         shapeA.push_back(c.shapeA);

@@ -28,7 +28,7 @@ Credentials credentialsOf(const httplib::Request& request) {
     credentials.contentType = request.get_header_value("Content-Type");
     credentials.fetchSite = request.get_header_value("Sec-Fetch-Site");
     credentials.token = request.get_param_value("token");
-    credentials.hosts = static_cast<int>(request.get_header_value_count("Host"));
+    credentials.hosts = request.get_header_value_count("Host");
     return credentials;
 }
 
