@@ -198,7 +198,7 @@ void writeFile(const std::filesystem::path& file, std::string_view content) {
     partial += ".part";
     {
         std::ofstream out(partial, std::ios::binary | std::ios::trunc);
-        out.write(content.data(), static_cast<std::streamsize>(content.size()));
+        out.write(content.data(), content.size());
         out.close();
         if (!out) throw std::runtime_error("report: cannot write " + partial.string());
     }

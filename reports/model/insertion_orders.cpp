@@ -21,8 +21,7 @@ using results::MetricRow;
 using results::OrderDependence;
 
 std::size_t casesInOrders(const results::Run& run) {
-    return static_cast<std::size_t>(
-        std::count_if(run.cases.begin(), run.cases.end(), [](const CaseRow& c) { return c.orders.run; }));
+    return std::count_if(run.cases.begin(), run.cases.end(), [](const CaseRow& c) { return c.orders.run; });
 }
 
 bool isOrderDependent(const CaseRow& row) {

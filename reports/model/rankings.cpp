@@ -143,7 +143,7 @@ void rank(Mechanism& m) {
                           std::isfinite(s.toBest) ? s.toBest : 1e300);
     };
     std::stable_sort(m.order.begin(), m.order.end(), [&](auto a, auto b) { return key(a) < key(b); });
-    if (!m.order.empty() && isCandidate(m, m.order.front())) m.best = static_cast<int>(m.order.front());
+    if (!m.order.empty() && isCandidate(m, m.order.front())) m.best = m.order.front();
 }
 
 }  // namespace

@@ -326,11 +326,9 @@ Json packed(const std::vector<double>& values, const std::vector<std::size_t>& a
 
 /// Component `k` of the rows of a channel; empty when the channel does not have it for every time.
 std::vector<double> column(const results::Channel& channel, int k, std::size_t rows) {
-    if (k >= channel.columns || channel.values.size() < rows * static_cast<std::size_t>(channel.columns))
-        return {};
+    if (k >= channel.columns || channel.values.size() < rows * channel.columns) return {};
     std::vector<double> out(rows);
-    for (std::size_t i = 0; i < rows; ++i)
-        out[i] = channel.values[i * static_cast<std::size_t>(channel.columns) + static_cast<std::size_t>(k)];
+    for (std::size_t i = 0; i < rows; ++i) out[i] = channel.values[i * channel.columns + k];
     return out;
 }
 

@@ -86,7 +86,7 @@ std::string valueText(const StudyPoint& p) {
 }
 
 std::string svgBars(const StudyChart& chart) {
-    const double height = kBarTop + kBarHeight * static_cast<double>(chart.points.size()) + 34;
+    const double height = kBarTop + kBarHeight * chart.points.size() + 34;
     const BarScale scale(chart);
     std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 " + at(height) +
                       "\" width=\"760\" height=\"" + at(height) +

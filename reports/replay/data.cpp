@@ -98,7 +98,7 @@ Thinned thinned(const CaseFrames& c, double allowance) {
         out.frames = encodeFrames(c.file, false, c.length, out.kept, marks, thinning);
         const auto raw = static_cast<double>(out.frames.size());
         if (!last && raw * ratio > kHopeless * allowance) continue;
-        out.bytes = static_cast<double>(compressedSize(out.frames));
+        out.bytes = compressedSize(out.frames);
         ratio = out.bytes / std::max(1.0, raw);
         if (last || out.bytes <= allowance) break;
     }
@@ -158,7 +158,7 @@ void addReference(const std::vector<CaseFrames>& cases, const Indices& times, re
             if (f < c.file.times.size()) kept.push_back(f);
         EncodedFrames frames = encodeFrames(c.file, true, c.length, kept, {}, kThinnings.front());
         frames.meta["stride"] = c.file.stride;
-        budget.spendBeside(static_cast<double>(compressedSize(frames)));
+        budget.spendBeside(compressedSize(frames));
         addArrays(bundle, "reference", frames);
         meta["reference"] = std::move(frames.meta);
         return;

@@ -60,8 +60,7 @@ class Codes {
         }
         if (code == 0) return false;
         const std::uint64_t z = code - 1;
-        difference =
-            static_cast<double>(static_cast<std::int64_t>(z >> 1) ^ -static_cast<std::int64_t>(z & 1));
+        difference = static_cast<std::int64_t>(z >> 1) ^ -static_cast<std::int64_t>(z & 1);
         return true;
     }
     std::string bytes_;
@@ -120,7 +119,7 @@ inline std::map<long, std::vector<ShownContact>> shownContacts(Bundle& bundle, s
             const int a = static_cast<int>(id[0][i]), b = static_cast<int>(id[1][i]);
             const auto [it, isNew] = latest.try_emplace({a, b, seen[{a, b}]++}, -1);
             previous.push_back(it->second);
-            it->second = static_cast<std::int64_t>(i);
+            it->second = i;
             stepOf.push_back(std::lround(steps[f]));
         }
     }
