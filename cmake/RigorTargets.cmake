@@ -11,10 +11,10 @@ add_library(rigor_flags INTERFACE)
 target_include_directories(rigor_flags INTERFACE ${PROJECT_SOURCE_DIR})
 # The same bits everywhere: no contraction into fused multiply-adds, no fast-math.
 target_compile_options(rigor_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
-                                             -ffp-contract=off)
+                                             -ffp-contract=off --param=large-unit-insns=1000000)
 # GCC 12 reports false positives of these from inside Eigen and the standard library when it inlines.
-target_compile_options(rigor_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds
-                                             -Wno-stringop-overflow -Wno-restrict>)
+target_compile_options(rigor_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized
+                                             -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict>)
 if(RIGOR_SANITIZE STREQUAL thread)
     target_compile_options(rigor_flags INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
     target_link_options(rigor_flags INTERFACE -fsanitize=thread)

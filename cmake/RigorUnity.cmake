@@ -3,7 +3,8 @@
 #
 # Several files of a target are compiled as one: what they have in common (headers, the precompiled header's pending
 # templates, instantiations of the standard library) is done once and not in each. rigor_unity(<target> [<files>])
-# lets a target do so, by default eight files at a time.
+# lets a target do so, by default eight files at a time; rigor_unity_by_folder(<target>) compiles all files of a folder
+# at once.
 #
 # Every file stands alone all the same: RIGOR_UNITY=OFF (the debug preset) shows what is forgotten. Names in unnamed
 # namespaces must differ within a folder.
@@ -20,4 +21,16 @@ function(rigor_unity target)
         set(before "#pragma GCC diagnostic ignored \"-Wsubobject-linkage\"")
         set_target_properties(${target} PROPERTIES UNITY_BUILD_CODE_BEFORE_INCLUDE "${before}")
     endif()
+endfunction()
+
+function(rigor_unity_by_folder target)
+    rigor_unity(${target})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+    get_target_property(sources ${target} SOURCES)
+    foreach(source ${sources})
+        cmake_path(GET source PARENT_PATH folder)
+        cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+        string(REPLACE "/" "_" group ${folder})
+        set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    endforeach()
 endfunction()

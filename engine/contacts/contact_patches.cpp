@@ -12,7 +12,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kContactGrain = 64;  ///< least number of contacts for a task: some microseconds of work
+constexpr std::size_t kPatchGrain = 64;  ///< least number of contacts for a task: some microseconds of work
 
 template <class R>
 void put(Lanes<PatchReal>& to, std::size_t lane, R x) {
@@ -131,7 +131,7 @@ template <class S>
 void PatchContacts<S>::prepare(ContactList<S>& contacts, const BodyArrays<S>& bodies,
                                const ContactStep<S>& step, const Tasks& tasks) {
     patches_.resize(contacts.size());
-    tasks.forEach(contacts.size(), kContactGrain, [&](std::size_t k) {
+    tasks.forEach(contacts.size(), kPatchGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts[k];
         contact.asleep = isAsleep<S>(bodies, contact);
         const bool movesA = bodies.invMass[contact.bodyA] > 0, movesB = bodies.invMass[contact.bodyB] > 0;

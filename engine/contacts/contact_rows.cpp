@@ -22,7 +22,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kContactGrain = 16;  ///< least number of contacts for a task: some microseconds of work
+constexpr std::size_t kRowGrain = 16;  ///< least number of contacts for a task: some microseconds of work
 
 /// Rounding of coordinates of order one metre: closer than this is touching.
 template <class R>
@@ -178,7 +178,7 @@ void RowContacts<S>::prepare(ContactList<S>&, const BodyArrays<S>&, const Contac
 template <class S>
 void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodies, const ContactStep<S>& step,
                                   ConstraintRows<S>& rows, const Tasks& tasks) {
-    tasks.forEach(contacts.size(), kContactGrain,
+    tasks.forEach(contacts.size(), kRowGrain,
                   [&](std::size_t k) { prepareRows<S>(bodies, step, stepBegins_, contacts[k]); });
     std::size_t firstRow = rows.rows.size(), firstBlock = rows.blocks.size();
     for (Contact<S>& contact : contacts) {
@@ -191,7 +191,7 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
     stepBegins_ = false;
     rows.rows.resize(firstRow);
     rows.blocks.resize(firstBlock);
-    tasks.forEach(contacts.size(), kContactGrain, [&](std::size_t k) {
+    tasks.forEach(contacts.size(), kRowGrain, [&](std::size_t k) {
         const Contact<S>& contact = contacts[k];
         std::uint32_t row = contact.firstRow;
         for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i) {

@@ -7,7 +7,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kShapeGrain = 256;  ///< least number of shapes for a task: some microseconds of work
+constexpr std::size_t kSideGrain = 256;  ///< least number of shapes for a task: some microseconds of work
 
 template <class S>
 bool blocked(const Shape<S>& surface, const typename S::Vec& from, const typename S::Vec& to,
@@ -86,7 +86,7 @@ void SurfaceSides<S>::keep(const ShapeSet<S>& shapes, const CollisionFilter<S>& 
     using Vec = typename S::Vec;
     if (shapes.surfaces().empty()) return;
     crossed_.resize(shapes.size());
-    tasks.forEach(shapes.size(), kShapeGrain, [&](std::size_t i) {
+    tasks.forEach(shapes.size(), kSideGrain, [&](std::size_t i) {
         const auto shape = static_cast<std::uint32_t>(i);
         crossed_[i] = 0;
         if (!shapes.movable()[i] || bodies.asleep[shapes[i].body]) return;

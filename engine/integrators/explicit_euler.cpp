@@ -13,8 +13,8 @@ namespace rigor::engine {
 namespace {
 
 template <class S>
-void move(BodyArrays<S>& bodies, std::span<const Velocity<S>> start, std::span<Velocity<S>> used,
-          typename S::Real h, TurnRotation<S> turn, const Tasks& tasks) {
+void moveExplicitly(BodyArrays<S>& bodies, std::span<const Velocity<S>> start, std::span<Velocity<S>> used,
+                    typename S::Real h, TurnRotation<S> turn, const Tasks& tasks) {
     std::copy(start.begin(), start.end(), used.begin());
     moveWith<S>(bodies, used, h, turn, tasks);
 }
@@ -27,7 +27,7 @@ IntegratorTraits integratorExplicitEulerTraits() {
 
 template <class S>
 Integrator<S> integratorExplicitEuler() {
-    return {&move<S>, false};
+    return {&moveExplicitly<S>, false};
 }
 #define RIGOR_INSTANTIATE(S) template Integrator<S> integratorExplicitEuler<S>();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)

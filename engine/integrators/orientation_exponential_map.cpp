@@ -11,7 +11,7 @@ namespace rigor::engine {
 namespace {
 
 template <class S>
-typename S::Rot turn(const typename S::Rot& q, const typename S::Ang& v) {
+typename S::Rot turnByExponential(const typename S::Rot& q, const typename S::Ang& v) {
     return rotatedBy(q, v);
 }
 
@@ -23,7 +23,7 @@ OrientationTraits orientationExponentialMapTraits() {
 
 template <class S>
 TurnRotation<S> orientationExponentialMap() {
-    return &turn<S>;
+    return &turnByExponential<S>;
 }
 #define RIGOR_INSTANTIATE(S) template TurnRotation<S> orientationExponentialMap<S>();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)

@@ -25,7 +25,7 @@ Eigen::Quaternion<R> turned(const Eigen::Quaternion<R>& q, const Eigen::Matrix<R
 }
 
 template <class S>
-typename S::Rot turn(const typename S::Rot& q, const typename S::Ang& v) {
+typename S::Rot turnByFirstOrder(const typename S::Rot& q, const typename S::Ang& v) {
     return turned(q, v);
 }
 
@@ -37,7 +37,7 @@ OrientationTraits orientationFirstOrderTraits() {
 
 template <class S>
 TurnRotation<S> orientationFirstOrder() {
-    return &turn<S>;
+    return &turnByFirstOrder<S>;
 }
 #define RIGOR_INSTANTIATE(S) template TurnRotation<S> orientationFirstOrder<S>();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)

@@ -91,7 +91,7 @@ typename FreeFlow<S>::Rate slopeAt(const FreeFlow<S>& flow, std::size_t i, const
 }
 
 template <class S>
-void advance(FreeFlow<S>& flow, double begin, typename S::Real h) {
+void advanceRk4(FreeFlow<S>& flow, double begin, typename S::Real h) {
     using Real = typename S::Real;
     const Real reach[4] = {Real(0), Real(0.5) * h, Real(0.5) * h, h};
     const Real weight[4] = {h / Real(6), h / Real(3), h / Real(3), h / Real(6)};
@@ -136,7 +136,7 @@ IntegratorTraits integratorRk4Traits() {
 
 template <class S>
 Integrator<S> integratorRk4() {
-    return {nullptr, false, &advance<S>};
+    return {nullptr, false, &advanceRk4<S>};
 }
 #define RIGOR_INSTANTIATE(S) template Integrator<S> integratorRk4<S>();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)

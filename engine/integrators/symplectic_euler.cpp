@@ -13,8 +13,9 @@ namespace rigor::engine {
 namespace {
 
 template <class S>
-void move(BodyArrays<S>& bodies, std::span<const Velocity<S>> start, std::span<Velocity<S>> used,
-          typename S::Real h, TurnRotation<S> turn, const Tasks& tasks) {
+void moveSymplectically(BodyArrays<S>& bodies, std::span<const Velocity<S>> start,
+                        std::span<Velocity<S>> used, typename S::Real h, TurnRotation<S> turn,
+                        const Tasks& tasks) {
     (void)start;
     std::copy(bodies.velocity.begin(), bodies.velocity.end(), used.begin());
     moveWith<S>(bodies, used, h, turn, tasks);
@@ -28,7 +29,7 @@ IntegratorTraits integratorSymplecticEulerTraits() {
 
 template <class S>
 Integrator<S> integratorSymplecticEuler() {
-    return {&move<S>, true};
+    return {&moveSymplectically<S>, true};
 }
 #define RIGOR_INSTANTIATE(S) template Integrator<S> integratorSymplecticEuler<S>();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)

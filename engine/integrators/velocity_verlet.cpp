@@ -48,7 +48,7 @@ void drift(FreeFlow<S>& flow, std::size_t i, typename S::Real h) {
 }
 
 template <class S>
-void advance(FreeFlow<S>& flow, double begin, typename S::Real h) {
+void advanceVerlet(FreeFlow<S>& flow, double begin, typename S::Real h) {
     const double end = begin + static_cast<double>(h);
     const typename S::Real half = typename S::Real(0.5) * h;
     const std::size_t n = flow.size();
@@ -74,7 +74,7 @@ IntegratorTraits integratorVelocityVerletTraits() {
 
 template <class S>
 Integrator<S> integratorVelocityVerlet() {
-    return {nullptr, false, &advance<S>};
+    return {nullptr, false, &advanceVerlet<S>};
 }
 #define RIGOR_INSTANTIATE(S) template Integrator<S> integratorVelocityVerlet<S>();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)

@@ -18,7 +18,7 @@ namespace rigor::engine {
 namespace {
 
 template <class R>
-struct Polygon {
+struct PolygonView {
     const Vec2<R>* vertices;
     const Vec2<R>* normals;
     int count;
@@ -33,14 +33,14 @@ struct Storage {
 };
 
 template <class R>
-Polygon<R> view(const Box<Space<R, 2>>& s, Storage<R>& store) {
+PolygonView<R> view(const Box<Space<R, 2>>& s, Storage<R>& store) {
     const R x = s.halfExtents.x(), y = s.halfExtents.y();
     store.vertices = {Vec2<R>(-x, -y), Vec2<R>(x, -y), Vec2<R>(x, y), Vec2<R>(-x, y)};
     store.normals = {Vec2<R>(0, -1), Vec2<R>(1, 0), Vec2<R>(0, 1), Vec2<R>(-1, 0)};
     return {store.vertices.data(), store.normals.data(), 4, R(0)};
 }
 template <class R>
-Polygon<R> view(const Capsule<Space<R, 2>>& s, Storage<R>& store) {
+PolygonView<R> view(const Capsule<Space<R, 2>>& s, Storage<R>& store) {
     store.vertices[0] = {0, -s.halfLength};
     store.vertices[1] = {0, s.halfLength};
     store.normals[0] = {1, 0};
@@ -48,14 +48,14 @@ Polygon<R> view(const Capsule<Space<R, 2>>& s, Storage<R>& store) {
     return {store.vertices.data(), store.normals.data(), 2, s.radius};
 }
 template <class R>
-Polygon<R> view(const Hull<Space<R, 2>>& s, Storage<R>&) {
+PolygonView<R> view(const Hull<Space<R, 2>>& s, Storage<R>&) {
     const auto& d = *s.data;
     return {d.vertices.data(), d.normals.data(), static_cast<int>(d.vertices.size()), R(0)};
 }
 
 /// Both sides of a segment are edges of it.
 template <class R>
-Polygon<R> view(const Segment<Space<R, 2>>& s, Storage<R>& store) {
+PolygonView<R> view(const Segment<Space<R, 2>>& s, Storage<R>& store) {
     const Vec2<R> d = (s.b - s.a).normalized();
     store.vertices[0] = s.a;
     store.vertices[1] = s.b;
@@ -65,7 +65,7 @@ Polygon<R> view(const Segment<Space<R, 2>>& s, Storage<R>& store) {
 }
 
 template <class R>
-R sizeOf(const Polygon<R>& p) {
+R sizeOf(const PolygonView<R>& p) {
     R size = p.radius;
     for (int i = 0; i < p.count; ++i) size = std::max(size, p.vertices[i].cwiseAbs().maxCoeff());
     return size;
@@ -79,7 +79,8 @@ struct EdgeAxis {
 
 /// The edge of `a` whose outward normal separates the cores most; `X` is the pose of b in the frame of a.
 template <class R>
-EdgeAxis<R> bestEdge(const Polygon<R>& a, const Polygon<R>& b, const Pose<Space<R, 2>>& X, R tolerance) {
+EdgeAxis<R> bestEdge(const PolygonView<R>& a, const PolygonView<R>& b, const Pose<Space<R, 2>>& X,
+                     R tolerance) {
     EdgeAxis<R> best;
     for (int i = 0; i < a.count; ++i) {
         const R s = edgeSeparation(a, b, X, i);
@@ -91,7 +92,7 @@ EdgeAxis<R> bestEdge(const Polygon<R>& a, const Polygon<R>& b, const Pose<Space<
 
 /// The separation along edge i of `a`.
 template <class R>
-R edgeSeparation(const Polygon<R>& a, const Polygon<R>& b, const Pose<Space<R, 2>>& X, int i) {
+R edgeSeparation(const PolygonView<R>& a, const PolygonView<R>& b, const Pose<Space<R, 2>>& X, int i) {
     const Vec2<R> n = rotateInverse<R>(X.q, a.normals[i]);
     R s = std::numeric_limits<R>::max();
     for (int j = 0; j < b.count; ++j) s = std::min(s, n.dot(b.vertices[j]));
@@ -108,8 +109,8 @@ struct Closest {
 
 /// Vertices of q (posed by X in the frame of p) against edges of p.
 template <class R>
-void closestVertex(const Polygon<R>& p, const Polygon<R>& q, const Pose<Space<R, 2>>& X, bool vertexOnB,
-                   Closest<R>& best) {
+void closestVertex(const PolygonView<R>& p, const PolygonView<R>& q, const Pose<Space<R, 2>>& X,
+                   bool vertexOnB, Closest<R>& best) {
     for (int j = 0; j < q.count; ++j) {
         const Vec2<R> x = toWorld<Space<R, 2>>(X, q.vertices[j]);
         for (int i = 0; i < p.count; ++i) {
@@ -131,7 +132,7 @@ void closestVertex(const Polygon<R>& p, const Polygon<R>& q, const Pose<Space<R,
 
 /// False if the segments of two capsules cross: then their four side tests disagree strictly.
 template <class R>
-bool coresApart(const Polygon<R>& a, const Polygon<R>& b, const Pose<Space<R, 2>>& X) {
+bool coresApart(const PolygonView<R>& a, const PolygonView<R>& b, const Pose<Space<R, 2>>& X) {
     const Vec2<R> p = a.vertices[0], d = a.vertices[1] - p;
     const Vec2<R> q0 = toWorld<Space<R, 2>>(X, b.vertices[0]), q1 = toWorld<Space<R, 2>>(X, b.vertices[1]);
     const Vec2<R> e = q1 - q0;
@@ -143,9 +144,15 @@ bool coresApart(const Polygon<R>& a, const Polygon<R>& b, const Pose<Space<R, 2>
 /// Everything a manifold is made from, in the frame of the reference polygon.
 template <class R>
 struct Reference {
+<<<<<<< HEAD
     const Polygon<R>& ref;
     const Polygon<R>& inc;
     Pose<Space<R, 2>> X;  ///< pose of the incident polygon in the frame of the reference polygon
+=======
+    const PolygonView<R>& ref;
+    const PolygonView<R>& inc;
+    Pose<Space<R, 2>> X;  ///< of the incident polygon in the frame of the reference polygon
+>>>>>>> a61c91fe (Compile the engine's files of a folder at once)
     bool refIsA;
     R speculative;
 };
@@ -218,7 +225,7 @@ void clipEdges(const Reference<R>& c, int edge, Manifold<Space<R, 2>>& out) {
 
 /// `a` and `b` in the frame of a; fills `out` in the world.
 template <class R>
-void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Polygon<R>& b,
+void collidePolygons(const PolygonView<R>& a, const Pose<Space<R, 2>>& Xa, const PolygonView<R>& b,
                      const Pose<Space<R, 2>>& Xb, R speculative, Manifold<Space<R, 2>>& out) {
     using S = Space<R, 2>;
     const Pose<S> XAB = relativePose<S>(Xa, Xb), XBA = relativePose<S>(Xb, Xa);
@@ -290,7 +297,7 @@ void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, cons
                  Manifold<Space<R, 2>>& out) {
     using S = Space<R, 2>;
     Storage<R> unused;
-    const Polygon<R> p = view<R>(b, unused);
+    const PolygonView<R> p = view<R>(b, unused);
     const Vec2<R> c = rotateInverse<R>(Xb.q, Xa.p - Xb.p);
     int edge = 0;
     R height = -std::numeric_limits<R>::max();
@@ -355,7 +362,7 @@ void collideAlong(const Segment<Space<R, 2>>& piece, bool front, const Shape<Spa
     using S = Space<R, 2>;
     out.count = 0;
     Storage<R> store, storeConvex;
-    const Polygon<R> ref = view<R>(piece, store);
+    const PolygonView<R> ref = view<R>(piece, store);
     const int edge = front ? 1 : 0;
     out.normal = ref.normals[edge];
     const Vec2<R> along = (piece.b - piece.a).normalized();

@@ -12,6 +12,7 @@
 //     [Ericson2005, ch. 4.4.1].
 // A segment that lies along a face gets two points: its ends clipped to the prism of the face along the
 // contact normal. rounded_polytope.cpp does the same for any convex hull, feature by feature.
+#include "engine/narrowphase/3d/clip.hpp"
 #include "engine/narrowphase/detail.hpp"
 #include "engine/narrowphase/pairs.hpp"
 
@@ -65,7 +66,7 @@ R closestOnCore(const Core<R>& core) {
 
 /// Closest points of separate cores, or the least overlap of overlapping ones.
 template <class R>
-struct CoreContact {
+struct AxisContact {
     Vec3<R> normal;  ///< unit, out of the box
     R distance;      ///< distance of the cores [m]; negative: they overlap
     Vec3<R> point;   ///< point of the segment
@@ -74,9 +75,9 @@ struct CoreContact {
 
 /// Closest points of cores whose distance is more than `tolerance`.
 template <class R>
-CoreContact<R> closestPoints(const Core<R>& core, R tolerance) {
+AxisContact<R> closestPoints(const Core<R>& core, R tolerance) {
     const R s = closestOnCore(core);
-    CoreContact<R> c;
+    AxisContact<R> c;
     c.point = core.at(s);
     const Vec3<R> e = core.excess(c.point);
     c.distance = e.norm();
@@ -101,7 +102,7 @@ CoreContact<R> closestPoints(const Core<R>& core, R tolerance) {
 
 /// A facet of the Minkowski difference.
 template <class R>
-struct CoreAxis {
+struct CapsuleAxis {
     Vec3<R> normal;  ///< unit, out of the box
     R separation = -std::numeric_limits<R>::max();
     int face = -1;             ///< 0 to 5: -x, +x, -y, ...
@@ -109,14 +110,14 @@ struct CoreAxis {
 };
 
 template <class R>
-CoreAxis<R> faceAxis(const Core<R>& core, int axis, bool high) {
+CapsuleAxis<R> faceAxis(const Core<R>& core, int axis, bool high) {
     const R side = high ? R(1) : R(-1);
     const R first = side * core.p[axis], last = first + side * core.d[axis];
     return {side * Vec3<R>::Unit(axis), std::min(first, last) - core.h[axis], 2 * axis + high};
 }
 /// e_k x d, out of the box on the side where `outward` points; false where edge and core are parallel.
 template <class R>
-bool edgeAxis(const Core<R>& core, int k, const Vec3<R>& outward, CoreAxis<R>& axis) {
+bool edgeAxis(const Core<R>& core, int k, const Vec3<R>& outward, CapsuleAxis<R>& axis) {
     Vec3<R> n = Vec3<R>::Unit(k).cross(core.d);
     const R length = n.norm();
     if (!(length > kRounding<R> * core.d.norm())) return false;
@@ -127,20 +128,20 @@ bool edgeAxis(const Core<R>& core, int k, const Vec3<R>& outward, CoreAxis<R>& a
 
 /// The best face. The first of equal ones is taken.
 template <class R>
-CoreAxis<R> bestFace(const Core<R>& core, R tolerance) {
-    CoreAxis<R> best;
+CapsuleAxis<R> bestFace(const Core<R>& core, R tolerance) {
+    CapsuleAxis<R> best;
     const Vec3<R> middle = core.at(R(0.5));
     for (int i = 0; i < 3; ++i)
-        if (const CoreAxis<R> face = faceAxis(core, i, middle[i] >= 0);
+        if (const CapsuleAxis<R> face = faceAxis(core, i, middle[i] >= 0);
             face.separation > best.separation + tolerance)
             best = face;
     return best;
 }
 /// Puts an edge in the place of `best` where that is better.
 template <class R>
-void tryEdges(const Core<R>& core, R tolerance, CoreAxis<R>& best) {
+void tryEdges(const Core<R>& core, R tolerance, CapsuleAxis<R>& best) {
     const Vec3<R> middle = core.at(R(0.5));
-    CoreAxis<R> axis;
+    CapsuleAxis<R> axis;
     for (int k = 0; k < 3; ++k)
         if (edgeAxis(core, k, middle, axis) && axis.separation > best.separation + tolerance) best = axis;
 }
@@ -148,9 +149,9 @@ void tryEdges(const Core<R>& core, R tolerance, CoreAxis<R>& best) {
 /// The face or edge that `memory` names in the place of the best where it is as good within `slack`: an edge
 /// gives way to a face, not the other way round.
 template <class R>
-void keepAxis(const Core<R>& core, const ManifoldMemory<Space<R, 3>>& memory, R slack, CoreAxis<R>& best) {
+void keepAxis(const Core<R>& core, const ManifoldMemory<Space<R, 3>>& memory, R slack, CapsuleAxis<R>& best) {
     using Memory = ManifoldMemory<Space<R, 3>>;
-    CoreAxis<R> last;
+    CapsuleAxis<R> last;
     const auto i = static_cast<int>(memory.featureA);
     if (memory.axis == Memory::kFaceA && i < 6) {
         last = faceAxis(core, i / 2, i % 2 == 1);
@@ -164,7 +165,7 @@ void keepAxis(const Core<R>& core, const ManifoldMemory<Space<R, 3>>& memory, R 
 
 /// The point of the core that is deepest along the axis.
 template <class R>
-CoreContact<R> deepestPoint(const Core<R>& core, const CoreAxis<R>& axis) {
+AxisContact<R> deepestPoint(const Core<R>& core, const CapsuleAxis<R>& axis) {
     if (axis.edge < 0) {
         const bool end = axis.normal.dot(core.d) < 0;
         return {axis.normal, axis.separation, core.at(end ? R(1) : R(0)), vertexFeature(false, end ? 1 : 0)};
@@ -178,10 +179,6 @@ CoreContact<R> deepestPoint(const Core<R>& core, const CoreAxis<R>& axis) {
     const R s = std::clamp(across.dot(way) / across.squaredNorm(), R(0), R(1));
     return {axis.normal, axis.separation, core.at(s), edgeFeature(axis.along, axis.edge)};
 }
-
-/// Cosine between a face's normal and the contact normal from which on a core can lie along the face.
-template <class R>
-inline constexpr R kFlat = R(0.999);
 
 /// Interval of the core's parameter s over the face that n points out of, with the heights along n at its
 /// ends.
@@ -216,12 +213,12 @@ void collideCore(const Core<R>& core, R radius, R speculative, Manifold<Space<R,
     const R size =
         std::max({core.h.maxCoeff(), core.p.cwiseAbs().maxCoeff(), core.at(R(1)).cwiseAbs().maxCoeff()});
     const R tolerance = kRounding<R> * size;
-    CoreAxis<R> axis = bestFace(core, tolerance);
+    CapsuleAxis<R> axis = bestFace(core, tolerance);
     out.separationLowerBound = axis.separation - radius;
     if (out.separationLowerBound > speculative) return;
     if (axis.separation <= tolerance) tryEdges(core, tolerance, axis);
 
-    CoreContact<R> contact;
+    AxisContact<R> contact;
     if (axis.separation > tolerance) {
         out.memory.axis = Memory::kNoAxis;
         contact = closestPoints(core, tolerance);

@@ -12,7 +12,8 @@ namespace rigor::engine {
 /// Faces with more vertices are thinned out evenly for clipping.
 inline constexpr int kFaceVertices = 64;
 inline constexpr int kRefSide = 1 << 16;  ///< line numbers from here on are sides of the reference prism
-/// Cosine of the largest angle between two faces (via n) that count as flat against each other: 2.5 degrees.
+/// Cosine of the largest angle at which two faces (through n), or a face and a cap or core axis, count as flat against
+/// each other: 2.5 degrees.
 template <class R>
 inline constexpr R kFlat = R(0.999);
 

@@ -45,11 +45,11 @@ struct Face {
 };
 
 template <class R>
-class Polytope {
+class ExpandingPolytope {
   public:
     using S = Space<R, 3>;
 
-    Polytope(const std::array<DifferencePoint<S>, 4>& start, R tolerance) : tolerance_(tolerance) {
+    ExpandingPolytope(const std::array<DifferencePoint<S>, 4>& start, R tolerance) : tolerance_(tolerance) {
         center_.setZero();
         for (const DifferencePoint<S>& p : start) center_ += R(0.25) * p.w;
         for (std::size_t i = 0; i < 4; ++i) points_[i] = start[i];
@@ -246,7 +246,7 @@ int initialTetrahedron(const Minkowski<Space<R, 3>>& D, std::array<DifferencePoi
 
 /// Computes the normal again from the largest triangle of the points in the facet.
 template <class R>
-void refineNormal(const Minkowski<Space<R, 3>>& D, const Polytope<R>& polytope, R tolerance,
+void refineNormal(const Minkowski<Space<R, 3>>& D, const ExpandingPolytope<R>& polytope, R tolerance,
                   EpaResult<Space<R, 3>>& best) {
     std::array<int, kMaxVertices> on;
     int n = 0;
@@ -303,7 +303,7 @@ EpaResult<Space<R, 3>> epa(const Minkowski<Space<R, 3>>& D) {
         return best;
     }
     const R tolerance = kRounding<R> * size;
-    Polytope<R> polytope(start, tolerance);
+    ExpandingPolytope<R> polytope(start, tolerance);
     best.depth = std::numeric_limits<R>::max();
     while (true) {
         const int i = polytope.least();

@@ -83,28 +83,28 @@ bool preferFaceNormal(FeaturePair<R>& m, const SupportFeature<R>& fa, const Supp
 constexpr int kRefSide = 1 << 16;  ///< line numbers from here on are sides of the reference prism
 
 template <class R>
-struct ClipVertex {
+struct FeatureVertex {
     Vec3<R> x;
     int in, out;  ///< lines before and after: edge i of the incident feature, or kRefSide + side
 };
 template <class R>
-struct ClipPolygon {
-    std::array<ClipVertex<R>, 2 * SupportFeature<R>::kMost> v;
+struct FeaturePolygon {
+    std::array<FeatureVertex<R>, 2 * SupportFeature<R>::kMost> v;
     int count = 0;
-    void add(const ClipVertex<R>& c) {
+    void add(const FeatureVertex<R>& c) {
         if (count < 2 * SupportFeature<R>::kMost) v[static_cast<std::size_t>(count++)] = c;
     }
-    const ClipVertex<R>& operator[](int i) const { return v[static_cast<std::size_t>(i)]; }
+    const FeatureVertex<R>& operator[](int i) const { return v[static_cast<std::size_t>(i)]; }
 };
 
 /// Keeps what is below the plane m . (x - p) = 0. An open polygon (a segment) is not closed again.
 template <class R>
-void clip(const ClipPolygon<R>& from, bool closed, const Vec3<R>& m, const Vec3<R>& p, int line,
-          ClipPolygon<R>& to) {
+void clip(const FeaturePolygon<R>& from, bool closed, const Vec3<R>& m, const Vec3<R>& p, int line,
+          FeaturePolygon<R>& to) {
     to.count = 0;
     if (!closed && from.count > 0 && m.dot(from[0].x - p) <= 0) to.add(from[0]);
     for (int i = 0; i + (closed ? 0 : 1) < from.count; ++i) {
-        const ClipVertex<R>&a = from[i], &b = from[(i + 1) % from.count];
+        const FeatureVertex<R>&a = from[i], &b = from[(i + 1) % from.count];
         const R sa = m.dot(a.x - p), sb = m.dot(b.x - p);
         if (sa <= 0 && sb <= 0) {
             to.add(b);
@@ -118,8 +118,8 @@ void clip(const ClipPolygon<R>& from, bool closed, const Vec3<R>& m, const Vec3<
 }
 
 template <class R>
-std::uint32_t clipFeature(const ClipVertex<R>& c, const SupportFeature<R>& ref, const SupportFeature<R>& inc,
-                          bool refIsA) {
+std::uint32_t clipFeature(const FeatureVertex<R>& c, const SupportFeature<R>& ref,
+                          const SupportFeature<R>& inc, bool refIsA) {
     const auto edge = [](const SupportFeature<R>& f, int i) {
         const auto k = static_cast<std::size_t>(i);
         return edgeName(f.index[k], f.index[(k + 1) % static_cast<std::size_t>(f.count)]);
@@ -161,7 +161,7 @@ template <class R>
 void clipFeatures(const FeaturePair<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc,
                   bool refIsA, Manifold<S3<R>>& out) {
     const Vec3<R> outward = refIsA ? m.normal : Vec3<R>(-m.normal);
-    ClipPolygon<R> buffers[2];
+    FeaturePolygon<R> buffers[2];
     int now = 0;
     const bool closed = inc.count > 2;
     for (int i = 0; i < inc.count; ++i)
@@ -173,7 +173,7 @@ void clipFeatures(const FeaturePair<R>& m, const SupportFeature<R>& ref, const S
         clip<R>(buffers[now], closed, (q - p).cross(outward), p, kRefSide + i, buffers[1 - now]);
         now = 1 - now;
     }
-    const ClipPolygon<R>& polygon = buffers[now];
+    const FeaturePolygon<R>& polygon = buffers[now];
     const R slope = R(1) / ref.normal.dot(outward);
     const auto height = [&](const Vec3<R>& x) { return R(ref.normal.dot(x - ref.at[0]) * slope); };
     std::array<int, 2 * SupportFeature<R>::kMost> near;
@@ -184,14 +184,16 @@ void clipFeatures(const FeaturePair<R>& m, const SupportFeature<R>& ref, const S
             near[static_cast<std::size_t>(found++)] = i;
             lowest = std::min(lowest, h);
         }
-    const auto at = [&](int k) -> const ClipVertex<R>& { return polygon[near[static_cast<std::size_t>(k)]]; };
+    const auto at = [&](int k) -> const FeatureVertex<R>& {
+        return polygon[near[static_cast<std::size_t>(k)]];
+    };
     const R noise = selectionNoise(m, ref, inc);
     reducePoints<S3<R>>(
         found, outward, smallerSide(ref, inc), out.memory,
         [&](int k) { return steadyHeight<R>([&](int i) { return height(at(i).x); }, lowest, noise, k); },
         [&](int k) { return at(k).x; }, [&](int k) { return clipFeature(at(k), ref, inc, refIsA); },
         [&](int k) {
-            const ClipVertex<R>& c = at(k);
+            const FeatureVertex<R>& c = at(k);
             const R h = height(c.x);
             const Vec3<R> onRef = c.x - h * outward;
             addPoint<S3<R>>(out, refIsA ? onRef : c.x, refIsA ? c.x : onRef, h,
@@ -201,7 +203,7 @@ void clipFeatures(const FeaturePair<R>& m, const SupportFeature<R>& ref, const S
 
 /// Sine of the largest angle between segments that lie side by side: about 3 degrees.
 template <class R>
-inline constexpr R kSideBySide = R(0.05);
+inline constexpr R kParallelEdges = R(0.05);
 
 /// The ends of the common stretch of two segments; nothing where they cross.
 template <class R>
@@ -209,7 +211,7 @@ void alongSegments(const FeaturePair<R>& m, const SupportFeature<R>& fa, const S
                    Manifold<S3<R>>& out) {
     const Vec3<R> d = fa.at[1] - fa.at[0], e = fb.at[1] - fb.at[0];
     const R dd = d.squaredNorm(), de = d.dot(e);
-    if (!(d.cross(e).squaredNorm() <= kSideBySide<R> * kSideBySide<R> * dd * e.squaredNorm())) return;
+    if (!(d.cross(e).squaredNorm() <= kParallelEdges<R> * kParallelEdges<R> * dd * e.squaredNorm())) return;
     const R t0 = d.dot(fb.at[0] - fa.at[0]) / dd, slope = de / dd, t1 = t0 + slope;
     const R low = std::max(R(0), std::min(t0, t1)), high = std::min(R(1), std::max(t0, t1));
     if (!(high - low > R(1e-3) * std::min(R(1), std::abs(slope)))) return;

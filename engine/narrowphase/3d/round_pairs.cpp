@@ -11,6 +11,7 @@
 //     r u, u = -n_xz / |n_xz|. A rim that lies nearly flat on the plane gets four points: fixed in the body,
 //     the nearest of them moved to the lowest point once that is lower by more than rounding. A standing
 //     cylinder so keeps its four points from step to step, and a tilted one rolls on its lowest point.
+#include "engine/narrowphase/3d/clip.hpp"
 #include "engine/narrowphase/3d/feature.hpp"
 #include "engine/narrowphase/pairs.hpp"
 
@@ -86,10 +87,6 @@ struct Candidates {
         id[static_cast<std::size_t>(count++)] = name;
     }
 };
-
-/// Cosine of the largest angle between cap and plane at which a cap lies flat on it: 2.5 degrees.
-template <class R>
-inline constexpr R kFlat = R(0.999);
 
 /// The rim at height y, facing along `outward` = +-1: its lowest point, or four where it lies flat. `down`:
 /// into the plane, unit.

@@ -8,6 +8,7 @@
 //   faces, and edges of the hull whose Gauss arc crosses the great circle of the segment's normals.
 // A segment that lies along a face gets two points: its ends clipped to the prism of the face along the
 // contact normal. Cost O(F + E), sums and products for most edges.
+#include "engine/narrowphase/3d/clip.hpp"
 #include "engine/narrowphase/3d/polytope.hpp"
 #include "engine/narrowphase/pairs.hpp"
 
@@ -206,10 +207,6 @@ bool clipToFace(const Polytope<R>& hull, const HullFace<R>& f, const Vec3<R>& n,
     }
     return low < high;
 }
-
-/// Cosine between a face's normal and the contact normal from which on a core can lie along the face.
-template <class R>
-inline constexpr R kFlat = R(0.999);
 
 /// Fills `out` in the frame of the polytope: A is the core of the given radius, B the polytope.
 template <class R>
