@@ -11,10 +11,12 @@ add_library(rigor_flags INTERFACE)
 target_include_directories(rigor_flags INTERFACE ${PROJECT_SOURCE_DIR})
 # The same bits everywhere: no contraction into fused multiply-adds, no fast-math.
 target_compile_options(rigor_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
-                                             -ffp-contract=off --param=large-unit-insns=1000000)
+                                             -ffp-contract=off)
 # GCC 12 reports false positives of these from inside Eigen and the standard library when it inlines.
 target_compile_options(rigor_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized
                                              -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict>)
+# What is inlined must not depend on which files are compiled at once: no limit to the growth of a translation unit.
+target_compile_options(rigor_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=large-unit-insns=1000000>)
 if(RIGOR_SANITIZE STREQUAL thread)
     target_compile_options(rigor_flags INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
     target_link_options(rigor_flags INTERFACE -fsanitize=thread)
@@ -57,7 +59,7 @@ function(rigor_adapter name)
                                                LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin/adapters)
     target_link_libraries(${target} PRIVATE rigor_flags rigor_adapter_interface ${ARG_LIBS})
     rigor_precompile(${target} hot)
-    rigor_unity(${target})
+    rigor_unity(${target} 0)
     set_property(GLOBAL APPEND PROPERTY RIGOR_ADAPTER_TARGETS ${target})
 endfunction()
 

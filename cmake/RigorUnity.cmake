@@ -3,15 +3,15 @@
 #
 # Several files of a target are compiled as one: what they have in common (headers, the precompiled header's pending
 # templates, instantiations of the standard library) is done once and not in each. rigor_unity(<target> [<files>])
-# lets a target do so, by default eight files at a time; rigor_unity_by_folder(<target>) compiles all files of a folder
-# at once.
+# lets a target do so, by default 16 files at a time (0: all of them); rigor_unity_by_folder(<target>) compiles all files
+# of a folder at once.
 #
 # Every file stands alone all the same: RIGOR_UNITY=OFF (the debug preset) shows what is forgotten. Names in unnamed
 # namespaces must differ within a folder.
 option(RIGOR_UNITY "Compile several files of a target at once" ON)
 
 function(rigor_unity target)
-    set(files 8)
+    set(files 16)
     if(ARGC GREATER 1)
         set(files ${ARGV1})
     endif()

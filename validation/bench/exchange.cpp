@@ -22,7 +22,7 @@ std::optional<double> optionalFrom(const json& j) {
     return j.is_null() ? std::nullopt : std::optional(numberFromJson(j));
 }
 
-std::unique_ptr<BenchCase> makeCase(const PlannedBench& planned, const json& request) {
+std::unique_ptr<TimedWork> makeCase(const PlannedBench& planned, const json& request) {
     if (planned.part == kScenePart) return makeSceneCase(planned, request.at("text").get<std::string>());
     for (const BenchFamily& family : benchFamilies())
         if (family.name == planned.part) return family.make(planned);

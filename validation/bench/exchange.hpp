@@ -9,7 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "validation/bench/bench_case.hpp"
+#include "validation/bench/timed_work.hpp"
 
 namespace rigor::validation {
 
@@ -21,7 +21,7 @@ nlohmann::json plannedToJson(const PlannedBench& planned);
 PlannedBench plannedFromJson(const nlohmann::json& json);
 
 /// A scene ready to be stepped; `text` is its scenario, `parameters` of `planned` hold spec and dt.
-std::unique_ptr<BenchCase> makeSceneCase(const PlannedBench& planned, const std::string& text);
+std::unique_ptr<TimedWork> makeSceneCase(const PlannedBench& planned, const std::string& text);
 
 /// One repetition in this process: `rigor __bench <request.json>`.
 int benchChild(const std::filesystem::path& request);

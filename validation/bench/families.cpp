@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "validation/bench/bench_case.hpp"
+#include "validation/bench/timed_work.hpp"
 
 namespace rigor::validation {
 
 #define BENCH_FAMILY(name, plan, make, title)                    \
     std::vector<PlannedBench> plan(const BenchRequest& request); \
-    std::unique_ptr<BenchCase> make(const PlannedBench& planned);
+    std::unique_ptr<TimedWork> make(const PlannedBench& planned);
 #include "validation/bench/families.def"
 #undef BENCH_FAMILY
 

@@ -65,7 +65,7 @@ class WorkMeter {
     std::map<std::string, std::vector<double>> phases_;
 };
 
-class SceneCase final : public BenchCase {
+class SceneCase final : public TimedWork {
   public:
     SceneCase(const PlannedBench& planned, const std::string& text)
         : scenario_(scenario::loadScenarioText(text, planned.name).scenario) {
@@ -136,7 +136,7 @@ class SceneCase final : public BenchCase {
 
 }  // namespace
 
-std::unique_ptr<BenchCase> makeSceneCase(const PlannedBench& planned, const std::string& text) {
+std::unique_ptr<TimedWork> makeSceneCase(const PlannedBench& planned, const std::string& text) {
     return std::make_unique<SceneCase>(planned, text);
 }
 

@@ -11,7 +11,7 @@
 
 #include "adapters/interface/registry.hpp"
 #include "scenarios/model/scenario.hpp"
-#include "validation/bench/bench_case.hpp"
+#include "validation/bench/timed_work.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace rigor::validation {

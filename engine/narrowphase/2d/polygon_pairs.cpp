@@ -144,15 +144,9 @@ bool coresApart(const PolygonView<R>& a, const PolygonView<R>& b, const Pose<Spa
 /// Everything a manifold is made from, in the frame of the reference polygon.
 template <class R>
 struct Reference {
-<<<<<<< HEAD
-    const Polygon<R>& ref;
-    const Polygon<R>& inc;
-    Pose<Space<R, 2>> X;  ///< pose of the incident polygon in the frame of the reference polygon
-=======
     const PolygonView<R>& ref;
     const PolygonView<R>& inc;
-    Pose<Space<R, 2>> X;  ///< of the incident polygon in the frame of the reference polygon
->>>>>>> a61c91fe (Compile the engine's files of a folder at once)
+    Pose<Space<R, 2>> X;  ///< pose of the incident polygon in the frame of the reference polygon
     bool refIsA;
     R speculative;
 };

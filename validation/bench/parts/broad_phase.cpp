@@ -32,7 +32,7 @@ constexpr const char *kRandom = "random", *kSpatial = "spatial";
 /// A case whose first two updates would take longer than this is not begun [s].
 constexpr double kLongest = 2.0;
 
-class BroadPhaseBench final : public BenchCase {
+class BroadPhaseBench final : public TimedWork {
   public:
     explicit BroadPhaseBench(const PlannedBench& planned)
         : spec_(adapter::parseSpec(planned.engine)),
@@ -203,7 +203,7 @@ std::vector<PlannedBench> planBroadPhases(const BenchRequest& request) {
     return all;
 }
 
-std::unique_ptr<BenchCase> makeBroadPhase(const PlannedBench& planned) {
+std::unique_ptr<TimedWork> makeBroadPhase(const PlannedBench& planned) {
     return std::make_unique<BroadPhaseBench>(planned);
 }
 

@@ -26,7 +26,7 @@ constexpr double kTimeLimit = 2.0;  ///< time after which no larger number of it
 constexpr double kEnough = 1.0;     ///< time after which no further solution is timed [s]
 constexpr const char *kTargets[] = {"1e-3", "1e-6", "1e-9"}, *kUsualTarget = kTargets[1];
 
-class ContactSolverBench final : public BenchCase {
+class ContactSolverBench final : public TimedWork {
   public:
     explicit ContactSolverBench(const PlannedBench& planned) {
         const json parameters = json::parse(planned.parameters);
@@ -122,7 +122,7 @@ std::vector<PlannedBench> planContactSolvers(const BenchRequest& request) {
     return all;
 }
 
-std::unique_ptr<BenchCase> makeContactSolver(const PlannedBench& planned) {
+std::unique_ptr<TimedWork> makeContactSolver(const PlannedBench& planned) {
     return std::make_unique<ContactSolverBench>(planned);
 }
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "adapters/interface/registry.hpp"
-#include "validation/bench/bench_case.hpp"
 #include "validation/bench/meter.hpp"
+#include "validation/bench/timed_work.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace rigor::validation {

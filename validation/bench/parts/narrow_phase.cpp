@@ -73,7 +73,7 @@ Judgement judgeDepths(adapter::CollisionBatch& batch, const std::vector<double>&
     return judgement;
 }
 
-class NarrowPhaseBench final : public BenchCase {
+class NarrowPhaseBench final : public TimedWork {
   public:
     explicit NarrowPhaseBench(const PlannedBench& planned) {
         const json parameters = json::parse(planned.parameters);
@@ -168,7 +168,7 @@ std::vector<PlannedBench> planNarrowPhases(const BenchRequest& request) {
     return all;
 }
 
-std::unique_ptr<BenchCase> makeNarrowPhase(const PlannedBench& planned) {
+std::unique_ptr<TimedWork> makeNarrowPhase(const PlannedBench& planned) {
     return std::make_unique<NarrowPhaseBench>(planned);
 }
 

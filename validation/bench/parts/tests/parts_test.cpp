@@ -20,11 +20,11 @@
 namespace rigor::validation {
 
 std::vector<PlannedBench> planBroadPhases(const BenchRequest& request);
-std::unique_ptr<BenchCase> makeBroadPhase(const PlannedBench& planned);
+std::unique_ptr<TimedWork> makeBroadPhase(const PlannedBench& planned);
 std::vector<PlannedBench> planNarrowPhases(const BenchRequest& request);
-std::unique_ptr<BenchCase> makeNarrowPhase(const PlannedBench& planned);
+std::unique_ptr<TimedWork> makeNarrowPhase(const PlannedBench& planned);
 std::vector<PlannedBench> planContactSolvers(const BenchRequest& request);
-std::unique_ptr<BenchCase> makeContactSolver(const PlannedBench& planned);
+std::unique_ptr<TimedWork> makeContactSolver(const PlannedBench& planned);
 
 namespace {
 

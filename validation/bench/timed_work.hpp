@@ -43,9 +43,9 @@ struct PlannedBench {
 };
 
 /// Work that is ready to be done, in the child.
-class BenchCase {
+class TimedWork {
   public:
-    virtual ~BenchCase() = default;
+    virtual ~TimedWork() = default;
 
     /// Warms up, does the work and times it: wall and cpu are medians over its operations (or over batches of
     /// them where one is too short for the clock), always more than 0. Fills samples, counts, quality, and
@@ -59,7 +59,7 @@ struct BenchFamily {
     std::string name;   ///< snake_case, of `rigor bench --parts NAME`
     std::string title;  ///< one line
     std::vector<PlannedBench> (*plan)(const BenchRequest& request);
-    std::unique_ptr<BenchCase> (*make)(const PlannedBench& planned);
+    std::unique_ptr<TimedWork> (*make)(const PlannedBench& planned);
 };
 
 /// The isolated parts, in the order of families.def; scenes are not among them.
