@@ -17,7 +17,7 @@ using results::BenchSummary;
 Json finite(double value) {
     return Json::parse(numberToJson(value).dump());
 }
-Json optional(const std::optional<double>& value) {
+Json orNull(const std::optional<double>& value) {
     return value ? finite(*value) : Json(nullptr);
 }
 
@@ -31,8 +31,8 @@ Json repetitionJson(const BenchRepetition& r) {
              {"samples", r.samples},
              {"peak_memory_kib", r.peakMemoryKiB},
              {"own_memory_kib", r.ownMemoryKiB},
-             {"allocations", optional(r.allocations)},
-             {"allocated_bytes", optional(r.allocatedBytes)},
+             {"allocations", orNull(r.allocations)},
+             {"allocated_bytes", orNull(r.allocatedBytes)},
              {"load", r.load},
              {"state_hash", r.stateHash},
              {"counts", Json::object()},
@@ -44,8 +44,8 @@ Json repetitionJson(const BenchRepetition& r) {
         out["quality"].push_back({{"name", q.name},
                                   {"unit", q.unit},
                                   {"value", finite(q.value)},
-                                  {"min", optional(q.min)},
-                                  {"max", optional(q.max)},
+                                  {"min", orNull(q.min)},
+                                  {"max", orNull(q.max)},
                                   {"ok", q.ok}});
     return out;
 }
@@ -69,7 +69,7 @@ Json caseJson(const BenchCase& c) {
              {"cpu", finite(s.cpu)},
              {"converged", s.converged},
              {"base", s.base},
-             {"ratio", optional(s.ratio)},
+             {"ratio", orNull(s.ratio)},
              {"ratio_interval", s.ratioLow ? Json::array({*s.ratioLow, *s.ratioHigh}) : Json(nullptr)},
              {"command", c.command},
              {"repetitions", Json::array()}};

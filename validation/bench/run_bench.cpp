@@ -189,8 +189,8 @@ class BenchInProgress {
     }
 
     void ended(const NextRepetition& next, const fs::path& answer, double load, const ProcessResult& result) {
-        const auto json = result.exitedWith(0) ? readJsonFile(answer) : std::nullopt;
-        BenchRepetition r = json ? repetitionFromJson(*json) : failed(result, work_[next.index].planned);
+        const auto reply = result.exitedWith(0) ? readJsonFile(answer) : std::nullopt;
+        BenchRepetition r = reply ? repetitionFromJson(*reply) : failed(result, work_[next.index].planned);
         r.round = next.round;
         r.order = order_++;
         r.load = load;

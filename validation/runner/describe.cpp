@@ -141,9 +141,9 @@ std::vector<EngineDescription> describeEngines(const std::vector<std::string>& e
                   kDescribeLimits,
                   engines[i],
                   [&d, answer](const ProcessResult& result) {
-                      const auto json = readJsonFile(answer);
-                      if (result.exitedWith(0) && json) {
-                          readDescription(*json, d);
+                      const auto reply = readJsonFile(answer);
+                      if (result.exitedWith(0) && reply) {
+                          readDescription(*reply, d);
                           return;
                       }
                       d.problem = result.timedOut ? "no result within the time limit" : result.ending();

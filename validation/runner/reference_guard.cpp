@@ -61,8 +61,8 @@ ReferenceCheck computed(const scenario::Scenario& s, const ReferenceMaker& make)
 
 ReferenceCheck answered(const std::filesystem::path& answer, const ProcessResult& result,
                         const ReferenceLimits& limits) {
-    const auto json = result.exitedWith(0) ? readJsonFile(answer) : std::nullopt;
-    if (json) return {parseReferenceOutcome(json->at("outcome")), json->at("problem")};
+    const auto reply = result.exitedWith(0) ? readJsonFile(answer) : std::nullopt;
+    if (reply) return {parseReferenceOutcome(reply->at("outcome")), reply->at("problem")};
     ReferenceCheck failure = referenceFailure(result.timedOut, result.status, limits);
     if (const std::string said = lastLine(result.outputTail);
         failure.outcome == ReferenceOutcome::Crashed && !said.empty())

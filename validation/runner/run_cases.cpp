@@ -269,15 +269,15 @@ class RunInProgress {
     /// Row of a child's result, or of the reason why there is none; the result file is removed.
     CaseRow rowOf(std::size_t index, const std::string& name, const ProcessResult& result) {
         const CasePlan& c = plan_[index];
-        const auto json = result.exitedWith(0) ? readJsonFile(answerOf(name)) : std::nullopt;
-        CaseRow row = json ? caseFromJson(*json) : failedRow(c, index, result);
+        const auto reply = result.exitedWith(0) ? readJsonFile(answerOf(name)) : std::nullopt;
+        CaseRow row = reply ? caseFromJson(*reply) : failedRow(c, index, result);
         row.id = c.id;
         row.position = index;
         row.wallSeconds = result.wallSeconds;
         row.cpuSeconds = result.cpuSeconds;
-        if (!json) row.peakMemoryKiB = result.peakMemoryKiB;
+        if (!reply) row.peakMemoryKiB = result.peakMemoryKiB;
         std::error_code ignored;
-        if (json && fs::exists(directory_ / trajectoryName(c.id), ignored))
+        if (reply && fs::exists(directory_ / trajectoryName(c.id), ignored))
             row.trajectoryFile = trajectoryName(c.id);
         fs::remove(answerOf(name), ignored);
         return row;

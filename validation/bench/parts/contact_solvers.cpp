@@ -22,8 +22,8 @@ using nlohmann::json;
 
 constexpr int kIterationCounts[] = {1,  2,   3,   4,   5,   7,   10,  14,  20,   28,   40,  56,
                                     80, 113, 160, 226, 320, 453, 640, 905, 1280, 1810, 2560};
-constexpr double kTimeLimit = 2.0;  ///< time after which no larger number of iterations is tried [s]
-constexpr double kEnough = 1.0;     ///< time after which no further solution is timed [s]
+constexpr double kSearchTime = 2.0;  ///< time after which no larger number of iterations is tried [s]
+constexpr double kSolveTime = 1.0;   ///< time after which no further solution is timed [s]
 constexpr const char *kTargets[] = {"1e-3", "1e-6", "1e-9"}, *kUsualTarget = kTargets[1];
 
 class ContactSolverBench final : public TimedWork {
@@ -47,7 +47,7 @@ class ContactSolverBench final : public TimedWork {
         CountingStopwatch watch(most);
         double spent = 0.0;
         const auto isEnough = [&](std::size_t solved) {
-            return solved >= most || spent > kEnough || (solved >= least && spent >= 0.05);
+            return solved >= most || spent > kSolveTime || (solved >= least && spent >= 0.05);
         };
         while (!isEnough(watch.samples().cpu.size())) {
             watch.time([&] { found = solve_->run(iterations, 0.0); });
@@ -79,7 +79,7 @@ class ContactSolverBench final : public TimedWork {
             }
             spent += watch.samples().wall.back();
             // Ended by itself: more would be the same.
-            if (least <= target_ || spent > kTimeLimit || found.iterations < iterations) break;
+            if (least <= target_ || spent > kSearchTime || found.iterations < iterations) break;
         }
         return best;
     }
