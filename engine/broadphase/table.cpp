@@ -8,14 +8,12 @@ namespace rigor::engine {
     template <class S>                    \
     std::unique_ptr<BroadPhase<S>> factory();
 #include "engine/broadphase/broadphases.def"
-#undef ALGORITHM
 
 template <class S>
 std::span<const AlgorithmEntry<BroadPhaseFactory<S>>> broadPhaseTable() {
     static constexpr AlgorithmEntry<BroadPhaseFactory<S>> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/broadphase/broadphases.def"
-#undef ALGORITHM
     };
     return table;
 }

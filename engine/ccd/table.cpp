@@ -9,14 +9,12 @@ namespace rigor::engine {
     template <class S>                    \
     std::unique_ptr<ContinuousCollision<S>> factory();
 #include "engine/ccd/continuous_collisions.def"
-#undef ALGORITHM
 
 template <class S>
 std::span<const AlgorithmEntry<ContinuousCollisionFactory<S>>> continuousCollisionTable() {
     static constexpr AlgorithmEntry<ContinuousCollisionFactory<S>> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/ccd/continuous_collisions.def"
-#undef ALGORITHM
     };
     return table;
 }
@@ -27,13 +25,11 @@ RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 
 #define ALGORITHM(name, factory, summary) ContinuousCollisionTraits factory##Traits();
 #include "engine/ccd/continuous_collisions.def"
-#undef ALGORITHM
 
 std::span<const TraitsEntry<ContinuousCollisionTraits>> continuousCollisionTraitsTable() {
     static const TraitsEntry<ContinuousCollisionTraits> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/ccd/continuous_collisions.def"
-#undef ALGORITHM
     };
     return table;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Tables of algorithms: one sorted .def file per family, included twice (declare, tabulate).
+// Tables of algorithms: one sorted .def file per family, with a line ALGORITHM(name, make, summary) for each. Who includes
+// it defines ALGORITHM; the file undefines it.
 #pragma once
 
 #include <cstring>
@@ -41,3 +42,7 @@ const AlgorithmEntry<Make>& findAlgorithm(std::span<const AlgorithmEntry<Make>> 
     template std::unique_ptr<Base<Space2d>> make<Space2d>(); \
     template std::unique_ptr<Base<Space3f>> make<Space3f>(); \
     template std::unique_ptr<Base<Space3d>> make<Space3d>()
+
+/// The line of a .def file as an entry of its family's table over the space S, or of the table of its traits.
+#define RIGOR_ALGORITHM_ENTRY(name, make, summary) {#name, &make<S>, summary},
+#define RIGOR_TRAITS_ENTRY(name, make, summary) {#name, make##Traits()},

@@ -8,14 +8,12 @@ namespace rigor::engine {
     template <class S>                     \
     const Fault<S>* function();
 #include "engine/faults/faults.def"
-#undef ALGORITHM
 
 template <class S>
 std::span<const AlgorithmEntry<FaultOf<S>>> faultTable() {
     static constexpr AlgorithmEntry<FaultOf<S>> table[] = {
-#define ALGORITHM(name, function, summary) {#name, &function<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/faults/faults.def"
-#undef ALGORITHM
     };
     return table;
 }

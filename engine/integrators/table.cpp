@@ -9,33 +9,28 @@ namespace rigor::engine {
     template <class S>                    \
     Integrator<S> factory();
 #include "engine/integrators/integrators.def"
-#undef ALGORITHM
 #define ALGORITHM(name, factory, summary) \
     template <class S>                    \
     RotationScheme<S> factory();
 #include "engine/integrators/rotations.def"
-#undef ALGORITHM
 #define ALGORITHM(name, factory, summary) \
     template <class S>                    \
     TurnRotation<S> factory();
 #include "engine/integrators/orientation_updates.def"
-#undef ALGORITHM
 
 template <class S>
 std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable() {
     static constexpr AlgorithmEntry<IntegratorFactory<S>> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/integrators/integrators.def"
-#undef ALGORITHM
     };
     return table;
 }
 template <class S>
 std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable() {
     static constexpr AlgorithmEntry<RotationFactory<S>> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/integrators/rotations.def"
-#undef ALGORITHM
     };
     return table;
 }
@@ -43,9 +38,8 @@ std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable() {
 template <class S>
 std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable() {
     static constexpr AlgorithmEntry<OrientationFactory<S>> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/integrators/orientation_updates.def"
-#undef ALGORITHM
     };
     return table;
 }
@@ -59,39 +53,33 @@ RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 
 #define ALGORITHM(name, factory, summary) IntegratorTraits factory##Traits();
 #include "engine/integrators/integrators.def"
-#undef ALGORITHM
 
 std::span<const TraitsEntry<IntegratorTraits>> integratorTraitsTable() {
     static const TraitsEntry<IntegratorTraits> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/integrators/integrators.def"
-#undef ALGORITHM
     };
     return table;
 }
 
 #define ALGORITHM(name, factory, summary) RotationTraits factory##Traits();
 #include "engine/integrators/rotations.def"
-#undef ALGORITHM
 
 std::span<const TraitsEntry<RotationTraits>> rotationTraitsTable() {
     static const TraitsEntry<RotationTraits> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/integrators/rotations.def"
-#undef ALGORITHM
     };
     return table;
 }
 
 #define ALGORITHM(name, factory, summary) OrientationTraits factory##Traits();
 #include "engine/integrators/orientation_updates.def"
-#undef ALGORITHM
 
 std::span<const TraitsEntry<OrientationTraits>> orientationTraitsTable() {
     static const TraitsEntry<OrientationTraits> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/integrators/orientation_updates.def"
-#undef ALGORITHM
     };
     return table;
 }

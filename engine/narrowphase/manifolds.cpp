@@ -8,9 +8,8 @@ namespace rigor::engine {
 template <class S>
 std::span<const AlgorithmEntry<ManifoldFunction<S>>> manifoldTable() {
     static constexpr AlgorithmEntry<ManifoldFunction<S>> kTable[] = {
-#define ALGORITHM(name, function, summary) {#name, &function<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/narrowphase/manifolds.def"
-#undef ALGORITHM
     };
     return kTable;
 }
@@ -21,13 +20,11 @@ RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 
 #define ALGORITHM(name, function, summary) ManifoldTraits function##Traits();
 #include "engine/narrowphase/manifolds.def"
-#undef ALGORITHM
 
 std::span<const TraitsEntry<ManifoldTraits>> manifoldTraitsTable() {
     static const TraitsEntry<ManifoldTraits> table[] = {
-#define ALGORITHM(name, function, summary) {#name, function##Traits()},
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/narrowphase/manifolds.def"
-#undef ALGORITHM
     };
     return table;
 }

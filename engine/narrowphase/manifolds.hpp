@@ -46,7 +46,6 @@ std::span<const AlgorithmEntry<ManifoldFunction<S>>> manifoldTable();
     template <class S>                     \
     void function(const ManifoldPair<S>& pair, ManifoldCache<S>& cache, Manifold<S>& manifold);
 #include "engine/narrowphase/manifolds.def"
-#undef ALGORITHM
 
 /// Explicit instantiation of a manifold function.
 #define RIGOR_INSTANTIATE_MANIFOLD(function)                                                           \

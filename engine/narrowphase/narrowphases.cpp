@@ -29,7 +29,6 @@ std::span<const NarrowPhaseEntry> narrowPhases() {
     static constexpr NarrowPhaseEntry kTable[] = {
 #define ALGORITHM(name, function, summary) {#name, summary},
 #include "engine/narrowphase/narrowphases.def"
-#undef ALGORITHM
     };
     return kTable;
 }
@@ -39,7 +38,6 @@ CollideFunction<S> findNarrowPhase(const char* name) {
 #define ALGORITHM(entry, function, summary) \
     if (std::strcmp(name, #entry) == 0) return &function<S>;
 #include "engine/narrowphase/narrowphases.def"
-#undef ALGORITHM
     return nullptr;
 }
 

@@ -28,6 +28,5 @@ std::shared_ptr<const NarrowPhase<S>> makeNarrowPhase(const std::string& name);
     void function(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb, \
                   typename S::Real speculativeDistance, Manifold<S>& out);
 #include "engine/narrowphase/narrowphases.def"
-#undef ALGORITHM
 
 }  // namespace rigor::engine

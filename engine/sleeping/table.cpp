@@ -8,14 +8,12 @@ namespace rigor::engine {
     template <class S>                    \
     SleepingScheme<S> factory();
 #include "engine/sleeping/sleepings.def"
-#undef ALGORITHM
 
 template <class S>
 std::span<const AlgorithmEntry<SleepingFactory<S>>> sleepingTable() {
     static constexpr AlgorithmEntry<SleepingFactory<S>> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/sleeping/sleepings.def"
-#undef ALGORITHM
     };
     return table;
 }

@@ -8,14 +8,12 @@ namespace rigor::engine {
     template <class S>                    \
     std::unique_ptr<Solver<S>> factory();
 #include "engine/solvers/matrix_solvers.def"
-#undef ALGORITHM
 
 template <OnMatrix S>
 std::span<const AlgorithmEntry<SolverFactory<S>>> matrixSolverTable() {
     static constexpr AlgorithmEntry<SolverFactory<S>> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/solvers/matrix_solvers.def"
-#undef ALGORITHM
     };
     return table;
 }

@@ -8,14 +8,12 @@ namespace rigor::engine {
     template <class S>                    \
     std::unique_ptr<PositionCorrection<S>> factory();
 #include "engine/solvers/position_corrections.def"
-#undef ALGORITHM
 
 template <class S>
 std::span<const AlgorithmEntry<PositionCorrectionFactory<S>>> positionCorrectionTable() {
     static constexpr AlgorithmEntry<PositionCorrectionFactory<S>> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/solvers/position_corrections.def"
-#undef ALGORITHM
     };
     return table;
 }

@@ -8,14 +8,12 @@ namespace rigor::engine {
     template <class S>                    \
     std::unique_ptr<Restitution<S>> factory();
 #include "engine/solvers/restitutions.def"
-#undef ALGORITHM
 
 template <class S>
 std::span<const AlgorithmEntry<RestitutionFactory<S>>> restitutionTable() {
     static constexpr AlgorithmEntry<RestitutionFactory<S>> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/solvers/restitutions.def"
-#undef ALGORITHM
     };
     return table;
 }

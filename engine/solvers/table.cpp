@@ -9,14 +9,12 @@ namespace rigor::engine {
     template <class S>                    \
     std::unique_ptr<Solver<S>> factory();
 #include "engine/solvers/solvers.def"
-#undef ALGORITHM
 
 template <class S>
 std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable() {
     static constexpr AlgorithmEntry<SolverFactory<S>> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/solvers/solvers.def"
-#undef ALGORITHM
     };
     return table;
 }
@@ -27,14 +25,12 @@ using Vec2 = Eigen::Matrix<R, 2, 1>;
     template <class R>                     \
     Vec2<R> function(R, R, R, const Vec2<R>&, const Vec2<R>&, R);
 #include "engine/solvers/frictions.def"
-#undef ALGORITHM
 
 template <class S>
 std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable() {
     static constexpr AlgorithmEntry<FrictionLaw<S>> table[] = {
 #define ALGORITHM(name, function, summary) {#name, &function<typename S::Real>, summary},
 #include "engine/solvers/frictions.def"
-#undef ALGORITHM
     };
     return table;
 }
@@ -47,26 +43,22 @@ RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 
 #define ALGORITHM(name, factory, summary) SolverTraits factory##Traits();
 #include "engine/solvers/solvers.def"
-#undef ALGORITHM
 
 std::span<const TraitsEntry<SolverTraits>> solverTraitsTable() {
     static const TraitsEntry<SolverTraits> table[] = {
-#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/solvers/solvers.def"
-#undef ALGORITHM
     };
     return table;
 }
 
 #define ALGORITHM(name, function, summary) FrictionTraits function##Traits();
 #include "engine/solvers/frictions.def"
-#undef ALGORITHM
 
 std::span<const TraitsEntry<FrictionTraits>> frictionTraitsTable() {
     static const TraitsEntry<FrictionTraits> table[] = {
-#define ALGORITHM(name, function, summary) {#name, function##Traits()},
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/solvers/frictions.def"
-#undef ALGORITHM
     };
     return table;
 }

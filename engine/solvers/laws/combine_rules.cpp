@@ -36,7 +36,6 @@ std::span<const AlgorithmEntry<CombineRule<R>>> combineTable() {
     static constexpr AlgorithmEntry<CombineRule<R>> table[] = {
 #define ALGORITHM(name, function, summary) {#name, &function<R>, summary},
 #include "engine/solvers/combine_rules.def"
-#undef ALGORITHM
     };
     return table;
 }

@@ -19,7 +19,6 @@ namespace rigor::engine {
     std::unique_ptr<Solver<S>> factory(); \
     SolverTraits factory##Traits();
 #include "engine/solvers/solvers.def"
-#undef ALGORITHM
 template <class R>
 using Vec2 = Eigen::Matrix<R, 2, 1>;
 #define ALGORITHM(name, function, summary)                        \
@@ -27,39 +26,32 @@ using Vec2 = Eigen::Matrix<R, 2, 1>;
     Vec2<R> function(R, R, R, const Vec2<R>&, const Vec2<R>&, R); \
     FrictionTraits function##Traits();
 #include "engine/solvers/frictions.def"
-#undef ALGORITHM
 #define ALGORITHM(name, factory, summary) \
     template <class S>                    \
     Integrator<S> factory();              \
     IntegratorTraits factory##Traits();
 #include "engine/integrators/integrators.def"
-#undef ALGORITHM
 #define ALGORITHM(name, factory, summary) \
     template <class S>                    \
     RotationScheme<S> factory();          \
     RotationTraits factory##Traits();
 #include "engine/integrators/rotations.def"
-#undef ALGORITHM
 #define ALGORITHM(name, factory, summary) \
     template <class S>                    \
     TurnRotation<S> factory();            \
     OrientationTraits factory##Traits();
 #include "engine/integrators/orientation_updates.def"
-#undef ALGORITHM
 #define ALGORITHM(name, factory, summary)              \
     template <class S>                                 \
     std::unique_ptr<ContinuousCollision<S>> factory(); \
     ContinuousCollisionTraits factory##Traits();
 #include "engine/ccd/continuous_collisions.def"
-#undef ALGORITHM
 #define ALGORITHM(name, factory, summary) \
     template <class S>                    \
     std::unique_ptr<Restitution<S>> factory();
 #include "engine/solvers/restitutions.def"
-#undef ALGORITHM
 #define ALGORITHM(name, function, summary) ManifoldTraits function##Traits();
 #include "engine/narrowphase/manifolds.def"
-#undef ALGORITHM
 
 namespace {
 
@@ -168,11 +160,11 @@ std::unique_ptr<Restitution<S>> makeIdle() {
 #define MANIFOLD_LIARS FALSE_ENTRY(remembers, manifoldDeepest, manifoldDeepest, t.remembers = true)
 
 // --- algorithms
-#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
 #define FALSE_ENTRY(lie, factory, honest, change) {"false_" #lie, &factory<S>, #lie},
 template <class S>
 std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable() {
     static constexpr AlgorithmEntry<SolverFactory<S>> table[] = {
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/solvers/solvers.def"
         SOLVER_LIARS};
     return table;
@@ -180,6 +172,7 @@ std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable() {
 template <class S>
 std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable() {
     static constexpr AlgorithmEntry<IntegratorFactory<S>> table[] = {
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/integrators/integrators.def"
         INTEGRATOR_LIARS};
     return table;
@@ -187,6 +180,7 @@ std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable() {
 template <class S>
 std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable() {
     static constexpr AlgorithmEntry<RotationFactory<S>> table[] = {
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/integrators/rotations.def"
         ROTATION_LIARS};
     return table;
@@ -194,6 +188,7 @@ std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable() {
 template <class S>
 std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable() {
     static constexpr AlgorithmEntry<OrientationFactory<S>> table[] = {
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/integrators/orientation_updates.def"
         ORIENTATION_LIARS};
     return table;
@@ -201,6 +196,7 @@ std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable() 
 template <class S>
 std::span<const AlgorithmEntry<ContinuousCollisionFactory<S>>> continuousCollisionTable() {
     static constexpr AlgorithmEntry<ContinuousCollisionFactory<S>> table[] = {
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/ccd/continuous_collisions.def"
         COLLISION_LIARS};
     return table;
@@ -208,6 +204,7 @@ std::span<const AlgorithmEntry<ContinuousCollisionFactory<S>>> continuousCollisi
 template <class S>
 std::span<const AlgorithmEntry<RestitutionFactory<S>>> restitutionTable() {
     static constexpr AlgorithmEntry<RestitutionFactory<S>> table[] = {
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/solvers/restitutions.def"
         RESTITUTION_LIARS};
     return table;
@@ -215,22 +212,21 @@ std::span<const AlgorithmEntry<RestitutionFactory<S>>> restitutionTable() {
 template <class S>
 std::span<const AlgorithmEntry<ManifoldFunction<S>>> manifoldTable() {
     static constexpr AlgorithmEntry<ManifoldFunction<S>> table[] = {
+#define ALGORITHM RIGOR_ALGORITHM_ENTRY
 #include "engine/narrowphase/manifolds.def"
         MANIFOLD_LIARS};
     return table;
 }
-#undef ALGORITHM
 #undef FALSE_ENTRY
-#define ALGORITHM(name, function, summary) {#name, &function<typename S::Real>, summary},
 #define FALSE_ENTRY(lie, function, honest, change) {"false_" #lie, &function<typename S::Real>, #lie},
 template <class S>
 std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable() {
     static constexpr AlgorithmEntry<FrictionLaw<S>> table[] = {
+#define ALGORITHM(name, function, summary) {#name, &function<typename S::Real>, summary},
 #include "engine/solvers/frictions.def"
         FRICTION_LIARS};
     return table;
 }
-#undef ALGORITHM
 #undef FALSE_ENTRY
 
 #define RIGOR_INSTANTIATE(S)                                                                     \
@@ -246,52 +242,57 @@ RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 // --- traits
-#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
 #define FALSE_ENTRY(lie, factory, honest, change) \
     {"false_" #lie, with(honest##Traits(), [](auto& t) { change; })},
 std::span<const TraitsEntry<SolverTraits>> solverTraitsTable() {
     static const TraitsEntry<SolverTraits> table[] = {
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/solvers/solvers.def"
         SOLVER_LIARS};
     return table;
 }
 std::span<const TraitsEntry<FrictionTraits>> frictionTraitsTable() {
     static const TraitsEntry<FrictionTraits> table[] = {
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/solvers/frictions.def"
         FRICTION_LIARS};
     return table;
 }
 std::span<const TraitsEntry<IntegratorTraits>> integratorTraitsTable() {
     static const TraitsEntry<IntegratorTraits> table[] = {
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/integrators/integrators.def"
         INTEGRATOR_LIARS};
     return table;
 }
 std::span<const TraitsEntry<RotationTraits>> rotationTraitsTable() {
     static const TraitsEntry<RotationTraits> table[] = {
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/integrators/rotations.def"
         ROTATION_LIARS};
     return table;
 }
 std::span<const TraitsEntry<OrientationTraits>> orientationTraitsTable() {
     static const TraitsEntry<OrientationTraits> table[] = {
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/integrators/orientation_updates.def"
         ORIENTATION_LIARS};
     return table;
 }
 std::span<const TraitsEntry<ContinuousCollisionTraits>> continuousCollisionTraitsTable() {
     static const TraitsEntry<ContinuousCollisionTraits> table[] = {
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/ccd/continuous_collisions.def"
         COLLISION_LIARS};
     return table;
 }
 std::span<const TraitsEntry<ManifoldTraits>> manifoldTraitsTable() {
     static const TraitsEntry<ManifoldTraits> table[] = {
+#define ALGORITHM RIGOR_TRAITS_ENTRY
 #include "engine/narrowphase/manifolds.def"
         MANIFOLD_LIARS};
     return table;
 }
-#undef ALGORITHM
 #undef FALSE_ENTRY
 
 }  // namespace rigor::engine
