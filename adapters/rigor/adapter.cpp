@@ -74,7 +74,8 @@ class RigorEngine final : public EngineWithPresets {
           contactSolvers_(makeRigorContactSolvers()) {}
 
     EngineInfo info() const override {
-        return {"rigor", "0.1.0", "f64", "Rigor's own engine", "checks on, no contraction of multiply-adds"};
+        return {"rigor", RIGOR_VERSION, "f64", "Rigor's own engine",
+                "checks on, no contraction of multiply-adds"};
     }
     Capabilities capabilities() const override { return rigorCapabilities(); }
     std::vector<Option> options() const override {

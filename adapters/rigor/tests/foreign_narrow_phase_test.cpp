@@ -14,7 +14,7 @@ namespace rigor::test {
 namespace {
 
 /// Modules of this build, also those that are loaded by name.
-const bool kPathSet = setenv("RIGOR_ADAPTER_PATH", RIGOR_BINARY_DIR "/bin/adapters", 1) == 0;
+const bool kModulePathSet = setenv("RIGOR_ADAPTER_PATH", RIGOR_BINARY_DIR "/bin/adapters", 1) == 0;
 
 std::vector<std::string> narrowPhaseValues() {
     for (const auto& option : engine().options())
@@ -27,7 +27,7 @@ bool installed(const std::string& name) {
 }
 
 TEST(RigorCollision, EveryAlgorithmReportsDepthAndDistance) {
-    ASSERT_TRUE(kPathSet);
+    ASSERT_TRUE(kModulePathSet);
     EXPECT_EQ(engine().collision()->algorithms(), narrowPhaseValues());
     const Geometry a = Box{{0.5, 0.5, 0.5}}, b = boxHull({0.25, 0.5, 0.75});
     for (const std::string& algorithm : engine().collision()->algorithms()) {

@@ -56,7 +56,7 @@ struct Random {
     }
 };
 
-constexpr const char* kKinds[] = {"sphere", "box", "capsule", "half_space", "hull"};
+constexpr const char* kShapeKinds[] = {"sphere", "box", "capsule", "half_space", "hull"};
 
 struct Worst {
     double depth = 0, normal = 0, point = 0;
@@ -147,7 +147,7 @@ TYPED_TEST(NarrowPhaseAgainstOracle, EveryPairOfKinds) {
                 // The oracle is queried with the values that the engine has after rounding to its precision.
                 this->check(a, Xa, b, Xb, worst);
             }
-            const std::string pair = std::string(kKinds[ka]) + " " + kKinds[kb];
+            const std::string pair = std::string(kShapeKinds[ka]) + " " + kShapeKinds[kb];
             EXPECT_LE(worst.depth, this->kTolerance) << pair;
             EXPECT_LE(worst.normal, this->kTolerance) << pair;
             EXPECT_LE(worst.point, this->kTolerance) << pair;
