@@ -71,6 +71,7 @@ function(rigor_test name)
     add_executable(${name} ${ARG_SOURCES})
     target_link_libraries(${name} PRIVATE rigor_flags ${ARG_LIBS} GTest::gtest_main GTest::gmock)
     rigor_precompile(${name} test)
+    rigor_unity(${name})
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     target_compile_definitions(${name} PRIVATE RIGOR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                RIGOR_BINARY_DIR="${PROJECT_BINARY_DIR}")

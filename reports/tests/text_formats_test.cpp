@@ -274,7 +274,7 @@ TEST(Svg, TicksAreRoundAndCoverTheRange) {
     }
 }
 
-std::vector<std::string> linesOf(const std::string& text) {
+std::vector<std::string> splitLines(const std::string& text) {
     std::vector<std::string> lines(1);
     for (const char c : text) {
         if (c == '\n')
@@ -291,7 +291,7 @@ TEST(Terminal, KeepsToItsLinesAndColumns) {
             for (const int most : {12, 40}) {
                 const auto run = synthetic::makeRun(scenarios);
                 const auto text = terminalSummary(run, most, columns, false);
-                const auto lines = linesOf(text);
+                const auto lines = splitLines(text);
                 EXPECT_LE(lines.size(), static_cast<std::size_t>(most));
                 EXPECT_EQ(text.find('\x1b'), std::string::npos);
                 for (const auto& line : lines)
@@ -317,7 +317,7 @@ TEST(Terminal, ShowsRankingsFailuresAndPaths) {
     const auto& best = view.columns()[mechanisms.front().best];
     const auto line = text.substr(at(("  " + mechanisms.front().name + " ").c_str()));
     EXPECT_LT(line.find(best.label), line.find('\n')) << "the first choice stands beside the mechanism";
-    EXPECT_GE(linesOf(text).size(), 36u) << "the lines are used";
+    EXPECT_GE(splitLines(text).size(), 36u) << "the lines are used";
 }
 
 /// Specs with ten options: a number in rows and columns, and what it stands for once.
@@ -333,7 +333,7 @@ TEST(Terminal, LongSpecsAreNumbered) {
     const std::string engine = run.cases.front().engine, preset = run.cases.front().preset;
     for (const int columns : {80, 200}) {
         const auto text = terminalSummary(run, 40, columns, false);
-        for (const auto& line : linesOf(text))
+        for (const auto& line : splitLines(text))
             EXPECT_LE(displayWidth(line), static_cast<std::size_t>(columns)) << line;
         EXPECT_NE(text.find("  " + engine + " " + preset + " [1]  "), std::string::npos) << "of what fails\n"
                                                                                          << text;

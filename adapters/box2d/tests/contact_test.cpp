@@ -10,7 +10,7 @@
 namespace rigor::test {
 namespace {
 
-constexpr double kG = 9.81;
+constexpr double kWeight = 9.81;
 
 Scenario onGround(const Geometry& geometry, double height, double friction, double restitution) {
     Scenario s = scene(friction, restitution, 2);
@@ -40,7 +40,7 @@ TEST(Box2dRestitution, RatioIsExactlyThePairsCoefficientInMatched) {
 
 TEST(Box2dRestitution, UncorrectedItGainsWhatGravityAddsInTheStep) {
     const double dt = 1.0 / 60, v = 4.4;  // impact speed of the 1 m drop, to a step
-    EXPECT_NEAR(bounceRatio(1.0, dt, "preset=matched,restitution=library"), 1.0 + kG * dt / v, 3e-3);
+    EXPECT_NEAR(bounceRatio(1.0, dt, "preset=matched,restitution=library"), 1.0 + kWeight * dt / v, 3e-3);
 }
 
 TEST(Box2dRestitution, NoVelocityThresholdInMatched) {
@@ -73,7 +73,7 @@ TEST(Box2dReadBack, PairsAreWhatBox2dWillUse) {
 TEST(Box2dFriction, SlidingStopsWhereTheSchemeSays) {
     const double mu = 0.5, dt = 1.0 / 240;
     double expected = 0.0;
-    for (double v = 4.0 - mu * kG * dt; v > 0.0; v -= mu * kG * dt) expected += v * dt;
+    for (double v = 4.0 - mu * kWeight * dt; v > 0.0; v -= mu * kWeight * dt) expected += v * dt;
     Scenario s = onGround(Box{{0.5, 0.25, 0}}, 0.25, mu, 0.0);
     s.bodies[1].velocity = {4, 0, 0};
     Simulation run(s, dt);
@@ -137,7 +137,7 @@ TEST(Box2dSkin, ShapesRestOnTheirSurfacesInMatched) {
             EXPECT_NEAR(c.depth, 0.0, 1e-5);  // depth of the surfaces, not of the skins
             sum += c.normalImpulse;
         }
-        EXPECT_NEAR(sum, kG / 240, 1e-4 * kG / 240);
+        EXPECT_NEAR(sum, kWeight / 240, 1e-4 * kWeight / 240);
     }
 }
 
@@ -178,7 +178,7 @@ TEST(Box2dContacts, BeltDragsABoxToItsSpeed) {
     addBody(s, Box{{0.5, 0.25, 0}}, {0, 0.25, 0}, 1.0, even(0.1));
     Simulation run(s, 1.0 / 240);
     run.seconds(0.1);
-    EXPECT_NEAR(run.state(1).velocity.x, 0.5 * kG * 0.1, 1e-3);
+    EXPECT_NEAR(run.state(1).velocity.x, 0.5 * kWeight * 0.1, 1e-3);
     run.seconds(1);
     EXPECT_NEAR(run.state(1).velocity.x, 1.0, 1e-5);
 }
@@ -186,7 +186,7 @@ TEST(Box2dContacts, BeltDragsABoxToItsSpeed) {
 TEST(Box2dContacts, SegmentsAreTwoSided) {
     for (const double side : {1.0, -1.0}) {
         Scenario s = scene(0.5, 0.0, 2);
-        s.gravity = {0, -side * kG, 0};
+        s.gravity = {0, -side * kWeight, 0};
         addStatic(s, scenario::Segment{{-3, 0, 0}, {3, 0, 0}});
         addBody(s, Box{{0.5, 0.5, 0}}, {0, side * 0.52, 0}, 1.0, even(1.0 / 6));
         Simulation run(s, 1.0 / 240);
@@ -198,7 +198,7 @@ TEST(Box2dContacts, SegmentsAreTwoSided) {
 TEST(Box2dContacts, TiltedHalfPlaneIsWhereTheScenarioPutsIt) {
     const Vec3 normal{-0.6, 0.8, 0};
     Scenario s = scene(0.0, 0.0, 2);
-    s.gravity = -kG * normal;
+    s.gravity = -kWeight * normal;
     addStatic(s, HalfSpace{{0, 1, 0}, 0.3}, {1, 2, 0});
     s.bodies[0].pose.orientation = scenario::fromAxisAngle({0, 0, 1}, std::atan2(0.6, 0.8));
     const Vec3 onPlane = s.bodies[0].pose * Vec3{0.4, 0.3, 0};

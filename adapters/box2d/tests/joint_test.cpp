@@ -10,7 +10,7 @@
 namespace rigor::test {
 namespace {
 
-constexpr double kStep = 1.0 / 480;
+constexpr double kJointStep = 1.0 / 480;
 
 Scenario plane() {
     return scene(0.0, 0.0, 2);
@@ -52,7 +52,7 @@ TEST(Box2dSprings, ADamperWithoutStiffnessDamps) {
             joint.axes[0].damping = turns ? 0.5 : 2.0;  // a time of 1 s for both
             joint.axes[0].target = rod ? 1.0 : 0.0;
             s.joints.push_back(joint);
-            Simulation run(s, kStep, options);
+            Simulation run(s, kJointStep, options);
             run.steps(480);
             const auto state = run.state(0);
             EXPECT_NEAR(turns ? state.angularVelocity.z : state.velocity.x, 0.3 * std::exp(-1.0), 2e-4);
@@ -75,7 +75,7 @@ TEST(Box2dSprings, ASpringStandsBesideStopAndMotor) {
         joint.axes[0].motorSpeed = 100.0;
         joint.axes[0].motorMaxForce = 2.0;
         s.joints.push_back(joint);
-        Simulation run(s, kStep, "preset=matched");
+        Simulation run(s, kJointStep, "preset=matched");
         run.steps(4800);
         EXPECT_NEAR(angleOf(run.state(0)), stopped ? 0.2 : 0.4, 5e-3);
     }
@@ -95,7 +95,7 @@ TEST(Box2dSprings, AFrequencyIsThatOfBothBodies) {
     joint.axes[0].dampingRatio = 0.0;
     joint.axes[0].target = 0.1;
     s.joints.push_back(joint);
-    Simulation run(s, kStep, "preset=matched");
+    Simulation run(s, kJointStep, "preset=matched");
     run.steps(120);  // half a period: from 0.1 short of the target to 0.1 beyond
     EXPECT_NEAR(run.state(1).position.x - run.state(0).position.x, 0.5, 5e-3);
     EXPECT_NEAR(3.0 * run.state(1).velocity.x + run.state(0).velocity.x, 0.0, 1e-5);
@@ -111,7 +111,7 @@ TEST(Box2dBreaks, WhereTheReactionIsAboveTheStrength) {
             Joint joint = onWorld(JointType::Fixed, b, {1, 2, 0});
             joint.breakForce = strength;
             s.joints.push_back(joint);
-            Simulation run(s, kStep, options);
+            Simulation run(s, kJointStep, options);
             run.steps(60);
             const bool holds = strength > 19.62;
             EXPECT_EQ(run.world->jointHolds(0), holds) << options;
@@ -128,7 +128,7 @@ TEST(Box2dBreaks, WhereTheTorqueIsAboveTheStrength) {
         Joint joint = onWorld(JointType::Fixed, b, {}, {-0.5, 0, 0});
         joint.breakTorque = strength;
         s.joints.push_back(joint);
-        Simulation run(s, kStep, "preset=matched");
+        Simulation run(s, kJointStep, "preset=matched");
         run.steps(240);
         EXPECT_EQ(run.world->jointHolds(0), strength > 9.81);
     }
@@ -145,7 +145,7 @@ TEST(Box2dBreaks, BodiesThatAJointKeptApartTouchAfterwards) {
         joint.anchorA = {0, 0.6, 0};
         joint.breakForce = breaks ? 1.0 : 1e300;
         s.joints.push_back(joint);
-        Simulation run(s, kStep, "preset=matched");
+        Simulation run(s, kJointStep, "preset=matched");
         double lowest = 1.0;
         for (int i = 0; i < 240; ++i) {
             run.steps(1);
@@ -168,7 +168,7 @@ TEST(Box2dSprings, ADamperAlongADistanceNeedsNoLength) {
     joint.axes[0].mode = scenario::AxisMode::Free;
     joint.axes[0].damping = 2.0;
     s.joints.push_back(joint);
-    Simulation run(s, kStep);
+    Simulation run(s, kJointStep);
     run.steps(480);
     EXPECT_NEAR(run.state(b).velocity.x, 0.3 * std::exp(-1.0), 2e-4);
 }
@@ -185,7 +185,7 @@ TEST(Box2dSixDof, MovesWhatIsFreeAlone) {
         for (int k = 0; k < 3; ++k)
             joint.axes[k].mode = (free >> k & 1) != 0 ? scenario::AxisMode::Free : scenario::AxisMode::Locked;
         s.joints.push_back(joint);
-        Simulation run(s, kStep);
+        Simulation run(s, kJointStep);
         const Vec3 x{0.6, 0.8, 0}, y{-0.8, 0.6, 0};
         for (int i = 0; i < 240; ++i) {
             run.world->applyForce(b, 2.0 * x + 1.0 * y, {0, 0, 0.5});
@@ -208,9 +208,9 @@ TEST(Box2dSixDof, TwoTravelsAreFreeOrRefused) {
     for (auto& axis : joint.axes) axis.mode = scenario::AxisMode::Free;
     joint.axes[1].stiffness = 10.0;
     s.joints.push_back(joint);
-    EXPECT_THROW(Simulation(s, kStep), adapter::Unsupported);
+    EXPECT_THROW(Simulation(s, kJointStep), adapter::Unsupported);
     s.joints[0].axes[1].stiffness = 0.0;
-    EXPECT_NO_THROW(Simulation(s, kStep));
+    EXPECT_NO_THROW(Simulation(s, kJointStep));
 }
 
 }  // namespace

@@ -10,9 +10,9 @@
 namespace rigor::test {
 namespace {
 
-constexpr double kG = 9.81;
+constexpr double kGravity = 9.81;
 
-Scenario plane(double friction = 0.0, double restitution = 0.0) {
+Scenario freeScene(double friction = 0.0, double restitution = 0.0) {
     return scene(friction, restitution, 2);
 }
 
@@ -29,7 +29,7 @@ TEST(Box2dInfo, NamesVersionAndPrecisionOfTheLibrary) {
 TEST(Box2dMotion, FreeFallIsSymplecticEulerWhateverTheScale) {
     for (const char* options : {"", "preset=matched", "preset=matched,scale=0.5"}) {
         const double dt = 1.0 / 240;
-        Scenario s = plane();
+        Scenario s = freeScene();
         addBody(s, Sphere{0.1}, {1, 2, 0});
         s.bodies[0].velocity = {3, 4, 0};
         s.bodies[0].angularVelocity = {0, 0, 5};
@@ -37,8 +37,8 @@ TEST(Box2dMotion, FreeFallIsSymplecticEulerWhateverTheScale) {
         run.steps(240);
         const auto state = run.state(0);
         EXPECT_NEAR(state.position.x, 4.0, 5e-5);
-        EXPECT_NEAR(state.position.y, 6.0 - 0.5 * kG * (1 + dt), 5e-5);
-        EXPECT_NEAR(state.velocity.y, 4 - kG, 2e-5);
+        EXPECT_NEAR(state.position.y, 6.0 - 0.5 * kGravity * (1 + dt), 5e-5);
+        EXPECT_NEAR(state.velocity.y, 4 - kGravity, 2e-5);
         EXPECT_NEAR(angleAboutZ(state.orientation), 5.0 - 2 * M_PI, 2e-5);
         EXPECT_NEAR(state.angularVelocity.z, 5.0, 1e-6);
     }
@@ -46,7 +46,7 @@ TEST(Box2dMotion, FreeFallIsSymplecticEulerWhateverTheScale) {
 
 /// b2MassData's inertia is about the body's origin, the scenario's about the centre of mass.
 TEST(Box2dMotion, CenterOfMassOffset) {
-    Scenario s = plane();
+    Scenario s = freeScene();
     s.gravity = {};
     addBody(s, Box{{1, 0.5, 0}}, {1, 0, 0}, 2.0, even(0.6));
     s.bodies[0].massProperties.centerOfMass = {0.3, 0.1, 0};
@@ -71,7 +71,7 @@ TEST(Box2dMotion, CenterOfMassOffset) {
 
 TEST(Box2dMotion, ForcesActForOneStepAndAddUp) {
     for (const char* options : {"", "preset=matched"}) {
-        Scenario s = plane();
+        Scenario s = freeScene();
         s.gravity = {};
         addBody(s, Sphere{0.1}, {}, 2.0, even(0.5));
         const double dt = 1.0 / 60;
@@ -87,7 +87,7 @@ TEST(Box2dMotion, ForcesActForOneStepAndAddUp) {
 
 /// Box2D's v /= 1 + dt c with c = -ln(kept) would leave .2549 of .25 at this step.
 TEST(Box2dMotion, DampingKeepsTheGivenPartPerSecond) {
-    Scenario s = plane();
+    Scenario s = freeScene();
     s.gravity = {};
     addBody(s, Sphere{0.1}, {});
     s.bodies[0].velocity = {1, 0, 0};
@@ -101,7 +101,7 @@ TEST(Box2dMotion, DampingKeepsTheGivenPartPerSecond) {
 }
 
 TEST(Box2dMotion, GravityScaleAndKinematicBodies) {
-    Scenario s = plane();
+    Scenario s = freeScene();
     addBody(s, Sphere{0.1}, {});
     s.bodies[0].gravityScale = -0.5;
     addStatic(s, Box{{1, 1, 0}}, {5, 0, 0});
@@ -109,15 +109,15 @@ TEST(Box2dMotion, GravityScaleAndKinematicBodies) {
     s.bodies[1].velocity = {0.5, -1, 0};
     s.bodies[1].angularVelocity = {0, 0, 1.5};
     Simulation run(s, 1.0 / 240);
-    EXPECT_NEAR(run.world->readBack().bodies[0].gravity.y, 0.5 * kG, 1e-5);
+    EXPECT_NEAR(run.world->readBack().bodies[0].gravity.y, 0.5 * kGravity, 1e-5);
     run.seconds(1);
-    EXPECT_NEAR(run.state(0).velocity.y, 0.5 * kG, 1e-4);
+    EXPECT_NEAR(run.state(0).velocity.y, 0.5 * kGravity, 1e-4);
     EXPECT_NEAR(norm(run.state(1).position - Vec3{5.5, -1, 0}), 0.0, 1e-4);
     EXPECT_NEAR(angleAboutZ(run.state(1).orientation), 1.5, 1e-4);
 }
 
 TEST(Box2dMotion, MatchedHasNoSleepingDefaultHas) {
-    Scenario s = plane();
+    Scenario s = freeScene();
     s.gravity = {};
     addBody(s, Sphere{0.1}, {});
     s.bodies[0].velocity = {0.009, 0, 0};
@@ -130,7 +130,7 @@ TEST(Box2dMotion, MatchedHasNoSleepingDefaultHas) {
 
 /// Limits compiled into the library: they can only be reported, in numbers that are true.
 TEST(Box2dMotion, SpeedLimitsAreThoseOfTheLedger) {
-    Scenario s = plane();
+    Scenario s = freeScene();
     s.gravity = {};
     addBody(s, Sphere{0.1}, {});
     s.bodies[0].velocity = {500, 0, 0};
@@ -147,7 +147,7 @@ TEST(Box2dMotion, SpeedLimitsAreThoseOfTheLedger) {
 
 TEST(Box2dMotion, ContinuousCollisionIsOffInMatched) {
     for (const bool matched : {true, false}) {
-        Scenario s = plane();
+        Scenario s = freeScene();
         s.gravity = {};
         addStatic(s, Box{{0.01, 5, 0}}, {2.1, 0, 0});
         addBody(s, Sphere{0.05}, {0.6, 0, 0}, 1.0, even(1e-3));
@@ -171,7 +171,7 @@ Joint joint(JointType type, int a, int b, Vec3 anchorA, Vec3 anchorB) {
 }
 
 TEST(Box2dJoints, HingeHoldsItsAnchorAndTurns) {
-    Scenario s = plane();
+    Scenario s = freeScene();
     const int a = addBody(s, Box{{0.1, 0.1, 0}}, {1, 0, 0}, 2.0, even(0.02));
     s.bodies[0].massProperties.centerOfMass = {0.05, -0.1, 0};
     s.bodies[0].pose.orientation = scenario::fromAxisAngle({0, 0, 1}, 0.5);
@@ -188,7 +188,7 @@ TEST(Box2dJoints, HingeHoldsItsAnchorAndTurns) {
 }
 
 TEST(Box2dJoints, SliderKeepsAxisAndAngle) {
-    Scenario s = plane();
+    Scenario s = freeScene();
     const int a = addBody(s, Box{{0.1, 0.1, 0}}, {0, 0, 0}, 2.0, even(0.02));
     s.bodies[0].pose.orientation = scenario::fromAxisAngle({0, 0, 1}, 0.3);
     Joint j = joint(JointType::Slider, scenario::kNone, a, {}, {});
@@ -199,13 +199,13 @@ TEST(Box2dJoints, SliderKeepsAxisAndAngle) {
     Simulation run(s, 1.0 / 480);
     run.seconds(0.5);
     const double along = dot(run.state(a).position, axis);
-    EXPECT_NEAR(along, 0.5 * kG * 0.8 * 0.25, 0.01);
+    EXPECT_NEAR(along, 0.5 * kGravity * 0.8 * 0.25, 0.01);
     EXPECT_NEAR(norm(run.state(a).position - along * axis), 0.0, 1e-4);
     EXPECT_NEAR(angleAboutZ(run.state(a).orientation), 0.3, 1e-4);
 }
 
 TEST(Box2dJoints, FixedHoldsAndRodKeepsItsLength) {
-    Scenario s = plane();
+    Scenario s = freeScene();
     const int held = addBody(s, Box{{0.1, 0.1, 0}}, {1, 0, 0}, 2.0, even(0.02));
     const int bob = addBody(s, Sphere{0.1}, {4, 0, 0}, 1.0, even(0.004));
     s.joints.push_back(joint(JointType::Fixed, scenario::kNone, held, {0, 0, 0}, {-1, 0, 0}));
@@ -222,7 +222,7 @@ TEST(Box2dJoints, FixedHoldsAndRodKeepsItsLength) {
 
 TEST(Box2dJoints, ConnectedBodiesCollideOnlyIfRequested) {
     for (const bool collide : {false, true}) {
-        Scenario s = plane();
+        Scenario s = freeScene();
         s.gravity = {};
         addBody(s, Sphere{0.5}, {0, 0, 0});
         addBody(s, Sphere{0.5}, {0.8, 0, 0});
@@ -235,7 +235,7 @@ TEST(Box2dJoints, ConnectedBodiesCollideOnlyIfRequested) {
 }
 
 Scenario withPolygon(std::vector<Vec3> vertices) {
-    Scenario s = plane();
+    Scenario s = freeScene();
     ConvexHull hull;
     hull.vertices = std::move(vertices);
     addBody(s, hull, {});

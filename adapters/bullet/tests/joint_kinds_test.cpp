@@ -14,7 +14,7 @@ namespace {
 using scenario::AxisMode;
 using scenario::JointAxis;
 
-Joint joint(JointType type, int a, int b, Vec3 anchorA, Vec3 anchorB, Vec3 axis = {1, 0, 0}) {
+Joint jointAlong(JointType type, int a, int b, Vec3 anchorA, Vec3 anchorB, Vec3 axis = {1, 0, 0}) {
     Joint j;
     j.name = "joint";
     j.type = type;
@@ -51,7 +51,7 @@ class BulletSixDof : public ::testing::TestWithParam<int> {
         const int b = addBody(s, Box{{0.1, 0.1, 0.1}}, {0, 0, 0}, 2.0, even(0.5));
         const Vec3 along = speed * kAxes[k % 3];
         (k < 3 ? s.bodies[0].velocity : s.bodies[0].angularVelocity) = along;
-        Joint j = joint(JointType::SixDof, scenario::kNone, b, {}, {}, kX);
+        Joint j = jointAlong(JointType::SixDof, scenario::kNone, b, {}, {}, kX);
         j.normalA = kY;
         j.axes[k] = axis;
         s.joints.push_back(j);
@@ -125,7 +125,7 @@ TEST(BulletSprings, AFrequencyIsThatOfTheReducedMass) {
     Scenario s = weightless();
     const int a = addBody(s, Box{{0.1, 0.1, 0.1}}, {0, 0, 0}, 1.0);
     const int b = addBody(s, Box{{0.1, 0.1, 0.1}}, {1, 0, 0}, 3.0);
-    Joint j = joint(JointType::Slider, a, b, {0.5, 0, 0}, {-0.5, 0, 0});
+    Joint j = jointAlong(JointType::Slider, a, b, {0.5, 0, 0}, {-0.5, 0, 0});
     j.axes[0].frequency = 2.0;
     j.axes[0].target = 0.1;
     s.joints.push_back(j);
@@ -138,7 +138,7 @@ TEST(BulletSprings, AFrequencyIsThatOfTheReducedMass) {
 TEST(BulletSprings, AFrequencyIsThatOfTheMomentAboutAnOffsetHinge) {
     Scenario s = weightless();
     const int b = addBody(s, Box{{0.1, 0.1, 0.1}}, {0.7, 0, 0}, 3.0);
-    Joint j = joint(JointType::Hinge, scenario::kNone, b, {}, {-0.7, 0, 0}, {0, 0, 1});
+    Joint j = jointAlong(JointType::Hinge, scenario::kNone, b, {}, {-0.7, 0, 0}, {0, 0, 1});
     j.axes[0].frequency = 2.0;
     j.axes[0].target = 0.1;
     s.joints.push_back(j);
@@ -153,7 +153,7 @@ TEST(BulletSprings, AFrequencyIsThatOfTheMomentAboutAnOffsetHinge) {
 TEST(BulletSprings, AStiffSpringIsSoftenedByDefaultAlone) {
     Scenario s = weightless();
     const int b = addBody(s, Box{{0.1, 0.1, 0.1}}, {}, 3.0);
-    Joint j = joint(JointType::Slider, scenario::kNone, b, {}, {});
+    Joint j = jointAlong(JointType::Slider, scenario::kNone, b, {}, {});
     // 30 rad/s = 0.5 per step
     j.axes[0].stiffness = 3.0 * 900.0;
     j.axes[0].target = 0.1;
@@ -172,7 +172,7 @@ TEST(BulletWheel, SpringsAlongItsStrutAndTurnsWithItsMotor) {
     const int chassis = addBody(s, Box{{0.5, 0.1, 0.5}}, {0, 2, 0}, 1e6, even(1e6));
     s.bodies[0].gravityScale = 0.0;
     const int wheel = addBody(s, Sphere{0.3}, {0, 1, 0}, 4.0, even(0.2));
-    Joint j = joint(JointType::Wheel, chassis, wheel, {0, -1, 0}, {}, {0, 1, 0});
+    Joint j = jointAlong(JointType::Wheel, chassis, wheel, {0, -1, 0}, {}, {0, 1, 0});
     j.spinAxisB = {0, 0, 1};
     j.axes[0].stiffness = 400;
     j.axes[0].damping = 40;
@@ -194,7 +194,7 @@ TEST(BulletWheel, TurnsAboutASpinAxisThatLeans) {
     Scenario s = scene();
     const int wheel = addBody(s, Sphere{0.3}, {0, 1, 0}, 4.0, even(0.2));
     s.bodies.back().collides = false;
-    Joint j = joint(JointType::Wheel, scenario::kNone, wheel, {0, 1, 0}, {}, {0, 1, 0});
+    Joint j = jointAlong(JointType::Wheel, scenario::kNone, wheel, {0, 1, 0}, {}, {0, 1, 0});
     j.spinAxisB = {0, 0.6, 0.8};
     j.axes[0].stiffness = 400;
     j.axes[0].damping = 60;
@@ -214,17 +214,18 @@ TEST(BulletWheel, TurnsAboutASpinAxisThatLeans) {
 /// Trap: a hinge's angle and limits are normalised to half a turn. Limits over turns and on one side alone,
 /// beside a motor and a spring.
 TEST(BulletHinge, StopsBeyondHalfATurnAndOnOneSideAlone) {
-    struct Case {
+    struct HingeCase {
         double lower, upper, speed, stop;
     };
-    for (const Case& c : {Case{-0.5, 7.5, 4.0, 7.5}, Case{-8.0, 1.0, -4.0, -8.0}, Case{-1e300, 0.5, 4.0, 0.5},
-                          Case{-0.5, 1e300, -4.0, -0.5}, Case{-0.5, 3.3, 4.0, 3.3}}) {
+    for (const HingeCase& c :
+         {HingeCase{-0.5, 7.5, 4.0, 7.5}, HingeCase{-8.0, 1.0, -4.0, -8.0}, HingeCase{-1e300, 0.5, 4.0, 0.5},
+          HingeCase{-0.5, 1e300, -4.0, -0.5}, HingeCase{-0.5, 3.3, 4.0, 3.3}}) {
         for (const bool sprung : {false, true}) {
             Scenario s = scene();
             s.gravity = {};
             const int b = addBody(s, Sphere{0.1}, {}, 1.0, even(0.1));
             s.bodies.back().collides = false;
-            Joint j = joint(JointType::Hinge, scenario::kNone, b, {}, {}, {0, 0, 1});
+            Joint j = jointAlong(JointType::Hinge, scenario::kNone, b, {}, {}, {0, 0, 1});
             j.axes[0] = limits(c.lower, c.upper);
             j.axes[0].motorSpeed = c.speed;
             j.axes[0].motorMaxForce = 1.0;
@@ -256,7 +257,7 @@ TEST(BulletConeTwist, ItsTwistIsDrivenAndSprung) {
         s.gravity = {};
         const int b = addBody(s, Sphere{0.1}, {}, 1.0, even(0.1));
         s.bodies.back().collides = false;
-        Joint j = joint(JointType::ConeTwist, scenario::kNone, b, {}, {}, {1, 0, 0});
+        Joint j = jointAlong(JointType::ConeTwist, scenario::kNone, b, {}, {}, {1, 0, 0});
         j.axes[1] = limits(-1e300, 0.5);
         if (sprung) {
             j.axes[0].stiffness = 20;
@@ -287,7 +288,7 @@ TEST(BulletDampers, StandBesideAMotor) {
     Scenario s = scene();
     s.gravity = {};
     const int b = addBody(s, Sphere{0.1}, {}, 2.0, even(0.1));
-    Joint j = joint(JointType::Slider, scenario::kNone, b, {}, {}, {1, 0, 0});
+    Joint j = jointAlong(JointType::Slider, scenario::kNone, b, {}, {}, {1, 0, 0});
     j.axes[0].mode = AxisMode::Free;
     j.axes[0].damping = 4.0;
     j.axes[0].motorSpeed = 10.0;
@@ -305,7 +306,7 @@ TEST(BulletConeTwist, TwistStopsAtBothEndsOfAnUnevenRange) {
         Scenario s = weightless();
         const int b = addBody(s, Box{{0.1, 0.1, 0.1}}, {});
         s.bodies[0].angularVelocity = {speed, 0, 0};
-        Joint j = joint(JointType::ConeTwist, scenario::kNone, b, {}, {});
+        Joint j = jointAlong(JointType::ConeTwist, scenario::kNone, b, {}, {});
         j.axes[0] = limits(-0.2, 0.9);
         s.joints.push_back(j);
         Simulation run(s, 1.0 / 240);
@@ -327,7 +328,7 @@ TEST(BulletConeTwist, SwingStopsAtItsConeInAnyDirection) {
             Scenario s = weightless();
             const int b = addBody(s, Box{{0.1, 0.1, 0.1}}, {});
             s.bodies[0].angularVelocity = turn;
-            Joint j = joint(type, scenario::kNone, b, {}, {});
+            Joint j = jointAlong(type, scenario::kNone, b, {}, {});
             j.axes[type == JointType::Ball ? 0 : 1] = limits(-1e300, 0.6);
             s.joints.push_back(j);
             Simulation run(s, 1.0 / 240);
@@ -345,7 +346,7 @@ TEST(BulletBreaking, TheForceIsAVectorInMatched) {
     Scenario s = scene();
     s.gravity = {-7, -7, 0};
     const int b = addBody(s, Sphere{0.1}, {});
-    Joint j = joint(JointType::Fixed, scenario::kNone, b, {}, {});
+    Joint j = jointAlong(JointType::Fixed, scenario::kNone, b, {}, {});
     j.breakForce = 9.0;
     s.joints.push_back(j);
     Simulation matched(s, 0.01), shipped(s, 0.01, "preset=default");
@@ -369,7 +370,7 @@ TEST(BulletBreaking, ATorqueIsThatAboutTheAnchor) {
         for (const char* preset : {"preset=matched", "preset=default"}) {
             Scenario s = scene();
             const int b = addBody(s, Sphere{0.1}, {1, 0, 0});  // 9.81 N m about the wall
-            Joint j = joint(JointType::Fixed, scenario::kNone, b, {}, {-1, 0, 0});
+            Joint j = jointAlong(JointType::Fixed, scenario::kNone, b, {}, {-1, 0, 0});
             j.breakTorque = strength;
             s.joints.push_back(j);
             Simulation run(s, 1.0 / 240, std::string(preset) + ",iterations=200");
@@ -391,7 +392,7 @@ TEST(BulletHinge, OnATurningShaftItStaysWithItsOwnAnchors) {
     const int rod = addBody(s, Sphere{0.05}, {0.3, -0.4, 0}, 1.0, even(0.001));
     s.bodies[1].velocity = cross(Vec3{0, 6, 0}, Vec3{0.3, -0.4, 0});
     s.bodies[1].angularVelocity = {0, 6, 0};
-    s.joints.push_back(joint(JointType::Hinge, 0, rod, {}, {-0.3, 0.4, 0}, {0, 0, 1}));
+    s.joints.push_back(jointAlong(JointType::Hinge, 0, rod, {}, {-0.3, 0.4, 0}, {0, 0, 1}));
     const auto worst = [&](const std::string& options) {
         Simulation run(s, 1.0 / 60, options);
         double gap = 0.0;
@@ -412,7 +413,7 @@ double springForce(double stiffness, double damping, double travel, double speed
     s.gravity = {};
     const int b = addBody(s, Sphere{0.1}, {}, 2.0);
     s.bodies[0].velocity = {speed, 0, 0};
-    Joint j = joint(JointType::Slider, scenario::kNone, b, {}, {}, {1, 0, 0});
+    Joint j = jointAlong(JointType::Slider, scenario::kNone, b, {}, {}, {1, 0, 0});
     j.axes[0].mode = scenario::AxisMode::Free;
     j.axes[0].stiffness = stiffness;
     j.axes[0].damping = damping;
@@ -450,7 +451,7 @@ TEST(BulletDampers, DampAHingeUnderGravity) {
         const Quat tilt = scenario::fromAxisAngle({0, 0, 1}, 0.02);
         s.bodies[0].pose = {rotate(tilt, Vec3{0, -0.5, 0}), tilt};
         s.bodies[0].collides = false;
-        Joint j = joint(JointType::Hinge, scenario::kNone, b, {}, {0, 0.5, 0}, {0, 0, 1});
+        Joint j = jointAlong(JointType::Hinge, scenario::kNone, b, {}, {0, 0.5, 0}, {0, 0, 1});
         j.axes[0].mode = scenario::AxisMode::Free;
         const double moment = 0.02 + 0.25, w = std::sqrt(9.81 * 0.5 / moment), zeta = 0.05;
         j.axes[0].damping = 2.0 * zeta * w * moment;
@@ -473,12 +474,12 @@ TEST(BulletDampers, DampAHingeUnderGravity) {
 TEST(BulletJointKinds, WhatTheLibraryLacksIsRefused) {
     Scenario s = scene();
     const int b = addBody(s, Sphere{0.1}, {});
-    Joint motored = joint(JointType::Ball, scenario::kNone, b, {}, {});
+    Joint motored = jointAlong(JointType::Ball, scenario::kNone, b, {}, {});
     motored.axes[0].motorSpeed = 1;
     motored.axes[0].motorMaxForce = 1;
-    Joint rod = joint(JointType::Distance, scenario::kNone, b, {0, 1, 0}, {});
+    Joint rod = jointAlong(JointType::Distance, scenario::kNone, b, {0, 1, 0}, {});
     rod.length = 1.0;
-    Joint oneSided = joint(JointType::SixDof, scenario::kNone, b, {}, {});
+    Joint oneSided = jointAlong(JointType::SixDof, scenario::kNone, b, {}, {});
     oneSided.axes[5] = limits(-0.5, 1e300);
     for (const Joint& j : {motored, rod, oneSided}) {
         s.joints = {j};

@@ -9,7 +9,7 @@
 namespace rigor::test {
 namespace {
 
-constexpr double kG = 9.81;
+constexpr double kGravity = 9.81;
 
 TEST(BulletInfo, NamesVersionAndPrecisionOfTheLibrary) {
     const auto info = engine().info();
@@ -30,8 +30,8 @@ TEST(BulletMotion, FreeFallIsSymplecticEulerStepForStep) {
         const double t = n * dt;
         const auto state = run.state(ball);
         EXPECT_NEAR(state.position.x, 1 + 3 * t, tol(1e-12, 1e-5));
-        EXPECT_NEAR(state.position.y, 2 + 4 * t - 0.5 * kG * t * (t + dt), tol(1e-12, 2e-5));
-        EXPECT_NEAR(state.velocity.y, 4 - kG * t, tol(1e-12, 1e-5));
+        EXPECT_NEAR(state.position.y, 2 + 4 * t - 0.5 * kGravity * t * (t + dt), tol(1e-12, 2e-5));
+        EXPECT_NEAR(state.velocity.y, 4 - kGravity * t, tol(1e-12, 1e-5));
     }
 }
 
@@ -103,8 +103,8 @@ TEST(BulletMotion, GravityScaleIsPerBody) {
     Simulation run(s, 1.0 / 60);
     run.seconds(1);
     EXPECT_EQ(run.state(0).velocity.y, 0.0);
-    EXPECT_NEAR(run.state(1).velocity.y, 0.5 * kG, tol(1e-12, 1e-5));
-    EXPECT_NEAR(run.world->readBack().bodies[1].gravity.y, 0.5 * kG, tol(1e-12, 1e-5));
+    EXPECT_NEAR(run.state(1).velocity.y, 0.5 * kGravity, tol(1e-12, 1e-5));
+    EXPECT_NEAR(run.world->readBack().bodies[1].gravity.y, 0.5 * kGravity, tol(1e-12, 1e-5));
 }
 
 /// A slow body in free space: Bullet's sleeping stops it after 2 s.

@@ -12,7 +12,7 @@ namespace {
 using scenario::AxisMode;
 using scenario::Pose;
 
-constexpr double kStep = 1.0 / 480.0;
+constexpr double kRopeStep = 1.0 / 480.0;
 
 Joint ropeOf(int a, int b, const Vec3& anchorA, const Vec3& anchorB, double lower, double upper) {
     Joint joint;
@@ -28,7 +28,7 @@ Joint ropeOf(int a, int b, const Vec3& anchorA, const Vec3& anchorB, double lowe
     joint.axes[0].upper = upper;
     return joint;
 }
-int addFree(Scenario& s, const Vec3& position, double mass, const Vec3& moments) {
+int addRopeEnd(Scenario& s, const Vec3& position, double mass, const Vec3& moments) {
     const int b = addBody(s, Sphere{0.1}, position, mass, moments);
     s.bodies.back().collides = false;
     return b;
@@ -40,8 +40,8 @@ TEST(OdeRopes, ATautRopeIsARod) {
     for (const bool turned : {false, true}) {
         Scenario s = scene();
         s.gravity = {};
-        const int a = addFree(s, {0, 0, 0}, 1.0, {0.1, 0.2, 0.3}),
-                  b = addFree(s, {1.5, 0, 0}, 3.0, even(0.4));
+        const int a = addRopeEnd(s, {0, 0, 0}, 1.0, {0.1, 0.2, 0.3}),
+                  b = addRopeEnd(s, {1.5, 0, 0}, 3.0, even(0.4));
         s.bodies[0].velocity = {0, -3, 0};
         s.bodies[1].velocity = {0, 1, 0};
         s.bodies[0].angularVelocity = {0.3, 0.2, 2.5};
@@ -51,7 +51,7 @@ TEST(OdeRopes, ATautRopeIsARod) {
         s.joints.push_back(rope);
         rope.axes[0] = {};
         rod.joints.push_back(rope);
-        Simulation tied(s, kStep), held(rod, kStep);
+        Simulation tied(s, kRopeStep), held(rod, kRopeStep);
         for (int i = 0; i < 480; ++i) {
             tied.steps(1);
             held.steps(1);
@@ -71,10 +71,10 @@ TEST(OdeRopes, ATautRopeIsARod) {
 TEST(OdeRopes, TheLowerBoundPushes) {
     Scenario s = scene(0.0, 0.0, 2);
     s.gravity = {};
-    const int b = addFree(s, {0, 1.0, 0}, 2.0, even(0.1));
+    const int b = addRopeEnd(s, {0, 1.0, 0}, 2.0, even(0.1));
     s.bodies[0].velocity = {0, -1, 0};
     s.joints.push_back(ropeOf(scenario::kNone, b, {}, {}, 0.4, 1.0));
-    Simulation simulation(s, kStep);
+    Simulation simulation(s, kRopeStep);
     simulation.seconds(0.5);
     EXPECT_NEAR(simulation.state(b).position.y, 0.5, 1e-12) << "free in between";
     const auto press = [&](double force, int steps) {
@@ -93,12 +93,12 @@ TEST(OdeRopes, TheLowerBoundPushes) {
 TEST(OdeRopes, ASpringHasBounds) {
     Scenario s = scene();
     s.gravity = {};
-    const int b = addFree(s, {1, 0, 0}, 1.0, even(0.1));
+    const int b = addRopeEnd(s, {1, 0, 0}, 1.0, even(0.1));
     Joint joint = ropeOf(scenario::kNone, b, {}, {}, 0.7, 1.0);
     joint.axes[0].stiffness = 4.0;
     joint.axes[0].target = 0.5;
     s.joints.push_back(joint);
-    Simulation simulation(s, kStep);
+    Simulation simulation(s, kRopeStep);
     simulation.seconds(0.2);
     EXPECT_NEAR(simulation.state(b).position.x, 0.5 + 0.5 * std::cos(0.4), 2e-3);
     simulation.seconds(2.0);
@@ -109,11 +109,11 @@ TEST(OdeRopes, ASpringHasBounds) {
 TEST(OdeRopes, BreakByTheirPull) {
     Scenario s = scene();
     s.gravity = {0, -9.81, 0};
-    const int b = addFree(s, {0, -1, 0}, 2.0, even(0.1));
+    const int b = addRopeEnd(s, {0, -1, 0}, 2.0, even(0.1));
     Joint joint = ropeOf(scenario::kNone, b, {}, {}, 0.0, 1.0);
     joint.breakForce = 25.0;
     s.joints.push_back(joint);
-    Simulation simulation(s, kStep);
+    Simulation simulation(s, kRopeStep);
     for (int i = 0; i < 240; ++i) {
         simulation.world->applyForce(b, {0, i < 120 ? -5.2 : -5.5, 0}, {});
         simulation.steps(1);
@@ -126,9 +126,9 @@ TEST(OdeRopes, BreakByTheirPull) {
 TEST(OdeRopes, SnapshotsOfATautRopeBringTheSameFutureBack) {
     Scenario s = scene();
     s.gravity = {0, -9.81, 0};
-    const int b = addFree(s, {0.8, -0.6, 0}, 2.0, even(0.1));
+    const int b = addRopeEnd(s, {0.8, -0.6, 0}, 2.0, even(0.1));
     s.joints.push_back(ropeOf(scenario::kNone, b, {}, {0.05, 0.02, 0.01}, 0.0, 1.0));
-    Simulation simulation(s, kStep);
+    Simulation simulation(s, kRopeStep);
     simulation.steps(300);
     std::vector<unsigned char> bytes;
     simulation.world->snapshots()->save(bytes);

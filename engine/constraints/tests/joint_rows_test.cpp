@@ -64,8 +64,8 @@ class JointRowsOf : public testing::Test {
         return makeJoint<S>(def, A, Vec::Zero(), B, Vec::Zero());
     }
 };
-using Spaces = testing::Types<Space2d, Space3d>;
-TYPED_TEST_SUITE(JointRowsOf, Spaces);
+using DoubleSpaces = testing::Types<Space2d, Space3d>;
+TYPED_TEST_SUITE(JointRowsOf, DoubleSpaces);
 
 /// d/dt of every C = J v, at poses that satisfy what the joint holds and anywhere its coordinates may go.
 TYPED_TEST(JointRowsOf, RowsAreTheGradientsOfWhatTheyMeasure) {
@@ -150,7 +150,7 @@ TYPED_TEST(JointRowsOf, RowsPushBothBodiesOppositely) {
 
 template <class S>
 class JointRowsAnywhere : public testing::Test, public JointCases<S> {};
-TYPED_TEST_SUITE(JointRowsAnywhere, Spaces);
+TYPED_TEST_SUITE(JointRowsAnywhere, DoubleSpaces);
 
 /// Equality rows whose gradient is exact far from C = 0 too; orientation rows (fixed, slider) and the angles of
 /// hinge and wheel are exact only where the joint holds.

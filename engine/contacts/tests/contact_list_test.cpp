@@ -12,12 +12,10 @@
 namespace rigor::engine::test {
 namespace {
 
-using S = Space2f;
-
 /// Contacts come and go at random; each is found in its slot and at its place until it is removed.
 TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
     const Tasks tasks(2);
-    SlotList<Contact<S>> list;
+    SlotList<Contact<Space2f>> list;
     std::vector<std::uint32_t> names;  // shape that each contact gets, by its place
     std::mt19937 random(1);
     bool tidied = false;
@@ -42,7 +40,7 @@ TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
         }
         ASSERT_EQ(list.size(), names.size());
         std::size_t place = 0;
-        for (const Contact<S>& contact : list) ASSERT_EQ(contact.shapeA, names[place++]) << round;
+        for (const Contact<Space2f>& contact : list) ASSERT_EQ(contact.shapeA, names[place++]) << round;
     }
     EXPECT_TRUE(tidied);
     list.defragment(tasks);
@@ -51,13 +49,13 @@ TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
 
 /// Known pairs are not tested again by the collision filter; a joint that comes in between is seen.
 TEST(ContactList, JointBetweenBodiesThatTouchEndsTheirContact) {
-    WorldDef<S> def;
-    World<S> world(def);
-    ShapeDef<S> shape;
-    shape.shape = Box<S>{{0.5f, 0.5f}};
+    WorldDef<Space2f> def;
+    World<Space2f> world(def);
+    ShapeDef<Space2f> shape;
+    shape.shape = Box<Space2f>{{0.5f, 0.5f}};
     std::vector<BodyId> boxes;
     for (const float x : {0.0f, 0.95f, 1.9f}) {
-        BodyDef<S> body;
+        BodyDef<Space2f> body;
         body.mass = 1;
         body.inertia = 1;
         body.pose.p = {x, 0};
@@ -66,7 +64,7 @@ TEST(ContactList, JointBetweenBodiesThatTouchEndsTheirContact) {
     }
     world.step(1.0f / 60);
     ASSERT_EQ(world.manifolds().size(), 2u);
-    JointDef<S> joint;
+    JointDef<Space2f> joint;
     joint.type = JointType::Fixed;
     joint.bodyA = boxes[0];
     joint.bodyB = boxes[1];

@@ -11,14 +11,13 @@
 namespace rigor::engine::test {
 namespace {
 
-using S = Space3d;
-using Vec = S::Vec;
+using Vec = Space3d::Vec;
 
 struct BallOnGround {
-    BodyArrays<S> bodies;
-    ContactList<S> contacts;
-    ConstraintRows<S> rows;
-    ContactStep<S> step{0.01, 1, 0, 10, {}, 0, 0, 1, true};
+    BodyArrays<Space3d> bodies;
+    ContactList<Space3d> contacts;
+    ConstraintRows<Space3d> rows;
+    ContactStep<Space3d> step{0.01, 1, 0, 10, {}, 0, 0, 1, true};
 
     /// The sphere has mass 2 and falls with 1 m/s.
     explicit BallOnGround(double friction) {
@@ -28,12 +27,12 @@ struct BallOnGround {
             bodies.asleep.push_back(0);
             bodies.constants.emplace_back().type = invMass > 0 ? BodyType::Dynamic : BodyType::Static;
             bodies.invMass.push_back(invMass);
-            bodies.invInertia.push_back(invMass * S::Inertia::Identity());
+            bodies.invInertia.push_back(invMass * Space3d::Inertia::Identity());
         }
         bodies.pose[1].p = Vec(0, 1, 0);
         bodies.velocity[1].v = Vec(0, -1, 0);
         contacts.reset(1);
-        Contact<S>& contact = contacts[0];
+        Contact<Space3d>& contact = contacts[0];
         contact.bodyB = 1;
         contact.shapeB = 1;
         contact.coefficients.friction = friction;
@@ -41,7 +40,7 @@ struct BallOnGround {
         contact.manifold.normal = Vec(0, 1, 0);
         contact.manifold.points[0].pointA = contact.manifold.points[0].pointB = Vec::Zero();
     }
-    void begin(ContactModel<S>& model, bool stepBegins) {
+    void begin(ContactModel<Space3d>& model, bool stepBegins) {
         rows.clear();
         if (stepBegins) model.prepare(contacts, bodies, step, Tasks::one());
         model.beginSubstep(contacts, bodies, step, rows, Tasks::one());
@@ -50,7 +49,7 @@ struct BallOnGround {
 
 TEST(RowContacts, AddUpTheImpulsesOfTheSubsteps) {
     BallOnGround scene(0.5);
-    const auto model = makeContactModel<S>(ContactForm::Rows);
+    const auto model = makeContactModel<Space3d>(ContactForm::Rows);
     for (int substep = 0; substep < 3; ++substep) {
         scene.begin(*model, substep == 0);
         ASSERT_EQ(model->counts().points, 1u);
@@ -68,10 +67,10 @@ TEST(RowContacts, AddUpTheImpulsesOfTheSubsteps) {
 
 TEST(RowContacts, FollowTheBodies) {
     BallOnGround scene(0);
-    const auto model = makeContactModel<S>(ContactForm::Rows);
+    const auto model = makeContactModel<Space3d>(ContactForm::Rows);
     scene.begin(*model, true);
     EXPECT_EQ(model->counts().rows, 1u) << "without friction";
-    std::vector<Velocity<S>> velocities(2);
+    std::vector<Velocity<Space3d>> velocities(2);
     velocities[1] = {Vec(3, 2, 0), Vec(0, 0, 5)};  // rolling adds nothing: the arm is along the normal
     model->advance(scene.contacts, velocities, 0.1, Tasks::one());
     EXPECT_DOUBLE_EQ(scene.contacts[0].points[0].separation, 0.2);
@@ -81,12 +80,12 @@ TEST(RowContacts, FollowTheBodies) {
 TEST(ContactModels, AgreeOnOnePointWithoutFriction) {
     for (const char* name : {"pgs", "wide"}) {
         BallOnGround scene(0);
-        const auto model = makeContactModel<S>(solverTraits(name).contacts);
-        const auto solver = findAlgorithm(solverTable<S>(), "solver", std::string(name)).make();
-        const auto friction = findAlgorithm(frictionTable<S>(), "friction", std::string("cone")).make;
-        QuietMonitor<S> monitor;
+        const auto model = makeContactModel<Space3d>(solverTraits(name).contacts);
+        const auto solver = findAlgorithm(solverTable<Space3d>(), "solver", std::string(name)).make();
+        const auto friction = findAlgorithm(frictionTable<Space3d>(), "friction", std::string("cone")).make;
+        QuietMonitor<Space3d> monitor;
         scene.begin(*model, true);
-        SolverInput<S> input{scene.rows, scene.bodies.velocity, friction, monitor, 1, scene.step.h};
+        SolverInput<Space3d> input{scene.rows, scene.bodies.velocity, friction, monitor, 1, scene.step.h};
         model->solve(*solver, input, Tasks::one());
         input.warmStarted = true;
         model->solve(*solver, input, Tasks::one());
@@ -99,9 +98,9 @@ TEST(ContactModels, AgreeOnOnePointWithoutFriction) {
 
 /// A solver that requests patches is one that solves them, and the other way round.
 TEST(ContactModels, AreWhatTheSolversTake) {
-    for (const auto& entry : solverTable<S>()) {
-        const std::unique_ptr<Solver<S>> solver = entry.make();
-        const bool solvesPatches = dynamic_cast<PatchSolver<S>*>(solver.get()) != nullptr;
+    for (const auto& entry : solverTable<Space3d>()) {
+        const std::unique_ptr<Solver<Space3d>> solver = entry.make();
+        const bool solvesPatches = dynamic_cast<PatchSolver<Space3d>*>(solver.get()) != nullptr;
         EXPECT_EQ(solverTraits(entry.name).contacts == ContactForm::Patches, solvesPatches) << entry.name;
     }
 }

@@ -10,10 +10,8 @@
 namespace rigor::engine::test {
 namespace {
 
-using S = Space3d;
-
-MaterialTable<S> table() {
-    MaterialTable<S> materials;
+MaterialTable<Space3d> table() {
+    MaterialTable<Space3d> materials;
     const auto rule = [](const char* name) {
         return findAlgorithm(combineTable<double>(), "combine", std::string(name)).make;
     };
@@ -22,7 +20,7 @@ MaterialTable<S> table() {
 }
 
 TEST(MaterialTable, CombinesByItsRulesInBothOrders) {
-    MaterialTable<S> materials = table();
+    MaterialTable<Space3d> materials = table();
     const std::uint32_t a = materials.add({0.25, 0.5, 0});
     const std::uint32_t b = materials.add({0.64, 0.2, 0.81});
     EXPECT_EQ(materials.size(), 3u);
@@ -35,7 +33,7 @@ TEST(MaterialTable, CombinesByItsRulesInBothOrders) {
 }
 
 TEST(MaterialTable, KeepsPairsThatWereSetWhenMaterialsAreAdded) {
-    MaterialTable<S> materials = table();
+    MaterialTable<Space3d> materials = table();
     const std::uint32_t a = materials.add({0.25, 0.5, 0});
     const std::uint32_t b = materials.add({0.64, 0.2, 0});
     materials.setPair(b, a, {0.9, 0.1, 0});

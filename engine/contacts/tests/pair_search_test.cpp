@@ -13,23 +13,21 @@
 namespace rigor::engine::test {
 namespace {
 
-using S = Space2d;
-
 /// Dynamic discs that walk at random in a square, and a function that finds their pairs.
 struct Crowd {
-    BodyArrays<S> bodies;
-    ShapeSet<S> shapes;
-    PairSearch<S> search;
-    std::unique_ptr<BroadPhase<S>> broadPhase =
-        findAlgorithm(broadPhaseTable<S>(), "broad_phase", std::string("brute_force")).make();
+    BodyArrays<Space2d> bodies;
+    ShapeSet<Space2d> shapes;
+    PairSearch<Space2d> search;
+    std::unique_ptr<BroadPhase<Space2d>> broadPhase =
+        findAlgorithm(broadPhaseTable<Space2d>(), "broad_phase", std::string("brute_force")).make();
     std::mt19937 random{3};
 
     explicit Crowd(std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {
             bodies.pose.emplace_back();
             bodies.constants.emplace_back().type = BodyType::Dynamic;
-            ShapeRecord<S> record;
-            record.shape = Sphere<S>{0.5};
+            ShapeRecord<Space2d> record;
+            record.shape = Sphere<Space2d>{0.5};
             record.body = i;
             shapes.add(record);
         }
@@ -37,10 +35,10 @@ struct Crowd {
     }
     void move(double distance) {
         std::uniform_real_distribution<double> step(-distance, distance);
-        for (Pose<S>& pose : bodies.pose) pose.p += S::Vec(step(random), step(random));
+        for (Pose<Space2d>& pose : bodies.pose) pose.p += Space2d::Vec(step(random), step(random));
     }
     void find(double margin) {
-        shapes.update(bodies, 0, LookAhead<S>(), Tasks::one());
+        shapes.update(bodies, 0, LookAhead<Space2d>(), Tasks::one());
         search.update(shapes, *broadPhase, margin, Tasks::one());
     }
 };

@@ -64,7 +64,7 @@ Eigen::Quaterniond orientationAfter(const std::string& rotation, const std::stri
     return world.pose(top).q;
 }
 
-const std::map<std::string, double> kOrder{
+const std::map<std::string, double> kRotationOrder{
     {"explicit", 1}, {"implicit", 1}, {"lie_midpoint", 2}, {"moser_veselov", 2}};
 
 TEST(Rotation, EverySchemeHasItsOrderWithEveryUpdate) {
@@ -72,8 +72,8 @@ TEST(Rotation, EverySchemeHasItsOrderWithEveryUpdate) {
     const Eigen::Quaterniond exact(0.3375275118, 0.5678892417, -0.3075971611, -0.6848072535);
     for (const auto& scheme : rotationTable<Space3d>()) {
         if (std::string(scheme.name) == "none") continue;  // another law
-        ASSERT_TRUE(kOrder.count(scheme.name)) << scheme.name << ": what is its order?";
-        const double expected = kOrder.at(scheme.name);
+        ASSERT_TRUE(kRotationOrder.count(scheme.name)) << scheme.name << ": what is its order?";
+        const double expected = kRotationOrder.at(scheme.name);
         for (const auto& update : orientationUpdateTable<Space3d>()) {
             const int steps = expected == 1 ? 4096 : 512;
             const double coarse = orientationAfter(scheme.name, update.name, 5, steps).angularDistance(exact),

@@ -21,8 +21,8 @@ class BoxCapsule : public testing::Test {
 
     static Shape<S> capsule(double radius, double halfLength) { return Capsule<S>{R(radius), R(halfLength)}; }
 };
-using Spaces = testing::Types<Space3f, Space3d>;
-TYPED_TEST_SUITE(BoxCapsule, Spaces);
+using BoxCapsuleSpaces = testing::Types<Space3f, Space3d>;
+TYPED_TEST_SUITE(BoxCapsule, BoxCapsuleSpaces);
 
 template <class S>
 void expectSame(const Manifold<S>& m, const Manifold<S>& oracle, double eps, double normalEps) {

@@ -18,8 +18,8 @@ class BoxPolygon : public testing::Test {
   protected:
     typename S::Vec halfA = vec<S>(0.5, 0.3), halfB = vec<S>(0.2, 0.4), halfPlate = vec<S>(2, 0.005);
 };
-using Spaces = testing::Types<Space2f, Space2d>;
-TYPED_TEST_SUITE(BoxPolygon, Spaces);
+using BoxPolygonSpaces = testing::Types<Space2f, Space2d>;
+TYPED_TEST_SUITE(BoxPolygon, BoxPolygonSpaces);
 
 /// The points of one are those of the other, in any order.
 template <class S>

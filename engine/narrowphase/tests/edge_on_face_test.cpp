@@ -15,11 +15,11 @@ namespace {
 
 template <class S>
 class EdgeOnFace : public testing::Test {};
-using Spaces = testing::Types<Space3f, Space3d>;
-TYPED_TEST_SUITE(EdgeOnFace, Spaces);
+using EdgeOnFaceSpaces = testing::Types<Space3f, Space3d>;
+TYPED_TEST_SUITE(EdgeOnFace, EdgeOnFaceSpaces);
 
 template <class S>
-Shape<S> boxHull(const typename S::Vec& half) {
+Shape<S> hullOfBox(const typename S::Vec& half) {
     std::vector<typename S::Vec> corners;
     for (int i = 0; i < 8; ++i)
         corners.push_back(half.cwiseProduct(typename S::Vec(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
@@ -34,7 +34,7 @@ Manifold<S> standOnEdge(const char* narrowPhase, bool hull, bool swapped, double
     using Vec = typename S::Vec;
     const Vec large(R(2), R(0.5), R(2)), small(R(0.3), R(0.4), R(0.5));
     const Shape<S> table = Box<S>{large};
-    const Shape<S> leaning = hull ? boxHull<S>(small) : Shape<S>(Box<S>{small});
+    const Shape<S> leaning = hull ? hullOfBox<S>(small) : Shape<S>(Box<S>{small});
     const auto about = [](double angle, const Vec& axis) {
         return typename S::Rot(Eigen::AngleAxis<R>(static_cast<R>(angle), axis));
     };

@@ -56,8 +56,8 @@ std::set<std::uint32_t> namesOf(const Manifold<S>& m) {
 
 template <class S>
 class Flicker : public testing::Test {};
-using Spaces = testing::Types<Space3f, Space3d>;
-TYPED_TEST_SUITE(Flicker, Spaces);
+using FlickerSpaces = testing::Types<Space3f, Space3d>;
+TYPED_TEST_SUITE(Flicker, FlickerSpaces);
 
 TYPED_TEST(Flicker, TheNormalMovesWithTheNoiseAndNoFurther) {
     using S = TypeParam;

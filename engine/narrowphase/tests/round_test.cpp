@@ -12,7 +12,7 @@
 namespace rigor::engine::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 template <class S>
 class Round : public testing::Test {
@@ -42,7 +42,7 @@ class Round : public testing::Test {
     static double spread(const Manifold<S>& m) {
         double least = 1e9;
         for (int k = 0; k < 16; ++k) {
-            const typename S::Vec d = vec<S>(std::cos(k * kPi / 8), 0, std::sin(k * kPi / 8));
+            const typename S::Vec d = vec<S>(std::cos(k * kHalfTurn / 8), 0, std::sin(k * kHalfTurn / 8));
             double furthest = -1e9;
             for (int i = 0; i < m.count; ++i)
                 furthest = std::max(furthest,
@@ -85,7 +85,7 @@ TYPED_TEST(Round, LyingCylinderHasItsLine) {
     for (const NarrowPhaseEntry& entry : narrowPhases()) {
         SCOPED_TRACE(entry.name);
         const auto up = vec<S>(0, 1, 0);
-        const auto lying = this->at(0.2, 0.49, 0, kPi / 2);
+        const auto lying = this->at(0.2, 0.49, 0, kHalfTurn / 2);
         for (const bool onTable : {false, true}) {
             const auto m = onTable ? this->by(entry.name, this->table, this->at(0, -1), this->cylinder, lying)
                                    : this->by(entry.name, this->floor, this->at(0, 0), this->cylinder, lying);
@@ -102,7 +102,7 @@ TYPED_TEST(Round, LyingCylinderHasItsLine) {
         EXPECT_NEAR(std::abs(m.points[0].pointA.y() - m.points[1].pointA.y()), 1.5, 1e-5);
         // Crossed: one point.
         EXPECT_EQ(this->by(entry.name, this->cylinder, this->at(0, 0), this->cylinder,
-                           this->at(0.1, 0.2, 0.95, kPi / 2))
+                           this->at(0.1, 0.2, 0.95, kHalfTurn / 2))
                       .count,
                   1);
     }
@@ -115,7 +115,7 @@ TYPED_TEST(Round, ConeOnItsSideHasItsLineAndOnItsApexAPoint) {
         const auto up = vec<S>(0, 1, 0);
         // Its side makes the angle atan(r / 2h) with the axis; lying on it the axis rises by as much.
         const double half = std::atan(0.25), middle = 0.5 * 0.5 * std::cos(half);
-        const auto side = this->at(0, middle - 0.01, 0, kPi / 2 + half);
+        const auto side = this->at(0, middle - 0.01, 0, kHalfTurn / 2 + half);
         for (const bool onTable : {false, true}) {
             const auto m = onTable ? this->by(entry.name, this->table, this->at(0, -1), this->cone, side)
                                    : this->by(entry.name, this->floor, this->at(0, 0), this->cone, side);
@@ -123,11 +123,11 @@ TYPED_TEST(Round, ConeOnItsSideHasItsLineAndOnItsApexAPoint) {
             EXPECT_NEAR((m.points[0].pointA - m.points[1].pointA).norm(), std::hypot(2, 0.5), 1e-5);
         }
         this->expectContact(
-            this->by(entry.name, this->floor, this->at(0, 0), this->cone, this->at(0, 0.98, 0, kPi)), up,
-            -0.02, 1);
+            this->by(entry.name, this->floor, this->at(0, 0), this->cone, this->at(0, 0.98, 0, kHalfTurn)),
+            up, -0.02, 1);
         this->expectContact(
-            this->by(entry.name, this->table, this->at(0, -1), this->cone, this->at(0, 0.98, 0, kPi)), up,
-            -0.02, 1);
+            this->by(entry.name, this->table, this->at(0, -1), this->cone, this->at(0, 0.98, 0, kHalfTurn)),
+            up, -0.02, 1);
     }
 }
 

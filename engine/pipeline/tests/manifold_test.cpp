@@ -39,8 +39,8 @@ struct Stack {
 
 template <class S>
 class Manifolds : public testing::Test {};
-using Spaces = testing::Types<Space2d, Space3d>;
-TYPED_TEST_SUITE(Manifolds, Spaces);
+using ManifoldSpaces = testing::Types<Space2d, Space3d>;
+TYPED_TEST_SUITE(Manifolds, ManifoldSpaces);
 
 TYPED_TEST(Manifolds, StacksRestWithEveryNarrowPhase) {
     using S = TypeParam;

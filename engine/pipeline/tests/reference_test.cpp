@@ -12,10 +12,8 @@
 namespace rigor::engine::test {
 namespace {
 
-using S = Space3d;
-
-WorldDef<S> reference() {
-    WorldDef<S> def = earth<S>();
+WorldDef<Space3d> reference() {
+    WorldDef<Space3d> def = earth<Space3d>();
     def.solver = "nsgs";
     def.measureResiduals = true;
     return def;
@@ -26,7 +24,7 @@ struct Record {
     int steps = 0, missed = 0;
     double worst = 0;  ///< residual of the steps that claim to have reached it [m/s]
     /// A flag goes with every residual above, and no other.
-    void add(const StepResult<S>& result) {
+    void add(const StepResult<Space3d>& result) {
         ++steps;
         const double residual = result.residuals.empty() ? 0 : result.residuals.back();
         missed += result.solverGaveUp;
@@ -37,10 +35,10 @@ struct Record {
 };
 
 TEST(Reference, StackReachesTheResidualInEveryStep) {
-    World<S> world(reference());
+    World<Space3d> world(reference());
     const std::uint32_t m = world.addMaterial(0.5, 0);
-    addGround<S>(world, m);
-    for (int i = 0; i < 10; ++i) addCube<S>(world, 0.01 * (i % 3), 0.25 + 0.5 * i, 0.25, 1, m);
+    addGround<Space3d>(world, m);
+    for (int i = 0; i < 10; ++i) addCube<Space3d>(world, 0.01 * (i % 3), 0.25 + 0.5 * i, 0.25, 1, m);
     Record record;
     for (int i = 0; i < 30; ++i) record.add(world.step(1.0 / 60));
     EXPECT_EQ(record.missed, 0);
@@ -49,25 +47,25 @@ TEST(Reference, StackReachesTheResidualInEveryStep) {
 
 /// Thirty boxes and spheres thrown together, every other one `ratio` times as heavy: light ones below heavy
 /// ones, edges on edges, all of it in motion.
-World<S> heap(double mu, double ratio, unsigned seed) {
-    World<S> world(reference());
+World<Space3d> heap(double mu, double ratio, unsigned seed) {
+    World<Space3d> world(reference());
     const std::uint32_t m = world.addMaterial(mu, 0);
-    addGround<S>(world, m);
+    addGround<Space3d>(world, m);
     std::mt19937 random(seed);
     const auto u = [&random] { return random() / 2147483647.5 - 1; };
     for (int i = 0; i < 30; ++i) {
         const int layer = i / 9, place = i % 9;
-        BodyDef<S> body;
+        BodyDef<Space3d> body;
         body.mass = i % 2 ? ratio : 1;
-        body.inertia = isotropic<S>(body.mass * 2.0 / 3 * 0.0625);
+        body.inertia = isotropic<Space3d>(body.mass * 2.0 / 3 * 0.0625);
         body.pose.p = {0.52 * (place % 3) + 0.08 * u(), 0.27 + 0.56 * layer, 0.52 * (place / 3) + 0.08 * u()};
         body.velocity = {0.3 * u(), -1, 0.3 * u()};
-        if (layer > 0) body.pose.q = S::Rot(1, 0.1 * u(), 0.1 * u(), 0.1 * u()).normalized();
+        if (layer > 0) body.pose.q = Space3d::Rot(1, 0.1 * u(), 0.1 * u(), 0.1 * u()).normalized();
         const BodyId id = world.addBody(body);
         if (i % 3 == 0)
-            attach<S>(world, id, Sphere<S>{0.25}, m);
+            attach<Space3d>(world, id, Sphere<Space3d>{0.25}, m);
         else
-            attach<S>(world, id, Box<S>{S::Vec::Constant(0.25)}, m);
+            attach<Space3d>(world, id, Box<Space3d>{Space3d::Vec::Constant(0.25)}, m);
     }
     return world;
 }
@@ -78,7 +76,7 @@ TEST(Reference, HeapsReachTheResidualInMostStepsAndSayWhereTheyDoNot) {
     Record record;
     for (const double mu : {0.3, 0.6, 1.0})
         for (const double ratio : {1.0, 100.0}) {
-            World<S> world = heap(mu, ratio, 1);
+            World<Space3d> world = heap(mu, ratio, 1);
             for (int i = 0; i < 6; ++i) record.add(world.step(1.0 / 60));
         }
     EXPECT_LT(record.worst, 1e-10);
@@ -87,12 +85,12 @@ TEST(Reference, HeapsReachTheResidualInMostStepsAndSayWhereTheyDoNot) {
 
 TEST(Reference, IterationsAreAtMostWhatIsSet) {
     for (const int most : {1, 3, 30}) {
-        WorldDef<S> def = reference();
+        WorldDef<Space3d> def = reference();
         def.velocityIterations = most;
-        World<S> world(def);
+        World<Space3d> world(def);
         const std::uint32_t m = world.addMaterial(0.5, 0);
-        addGround<S>(world, m);
-        for (int i = 0; i < 6; ++i) addCube<S>(world, 0.01 * (i % 3), 0.25 + 0.5 * i, 0.25, 1, m);
+        addGround<Space3d>(world, m);
+        for (int i = 0; i < 6; ++i) addCube<Space3d>(world, 0.01 * (i % 3), 0.25 + 0.5 * i, 0.25, 1, m);
         bool cut = false;
         for (int i = 0; i < 5; ++i) {
             const auto& result = world.step(1.0 / 60);

@@ -15,8 +15,8 @@ namespace {
 
 template <class S>
 class WidePrecision : public testing::Test {};
-using Spaces = testing::Types<Space2d, Space3d>;
-TYPED_TEST_SUITE(WidePrecision, Spaces);
+using WideSpaces = testing::Types<Space2d, Space3d>;
+TYPED_TEST_SUITE(WidePrecision, WideSpaces);
 
 /// A row of spheres and cubes that collide off their centres, without gravity; all have the velocity `common`
 /// in addition, and the row begins at `x0`.

@@ -17,7 +17,7 @@ namespace rigor::engine {
 namespace {
 
 template <class S>
-constexpr double tolerance() {
+constexpr double shapeTolerance() {
     return sizeof(typename S::Real) == 4 ? 2e-6 : 1e-13;
 }
 
@@ -180,8 +180,8 @@ TYPED_TEST(Solids, BoundingBoxIsTight) {
             const auto reach = [&](const typename S::Vec& d) {
                 return toWorld<S>(X, support<S>(shape, rotateInverse<typename S::Real>(X.q, d)))[axis];
             };
-            EXPECT_NEAR(box.max[axis], reach(e), 10 * tolerance<S>()) << shape.index();
-            EXPECT_NEAR(box.min[axis], reach(-e), 10 * tolerance<S>()) << shape.index();
+            EXPECT_NEAR(box.max[axis], reach(e), 10 * shapeTolerance<S>()) << shape.index();
+            EXPECT_NEAR(box.min[axis], reach(-e), 10 * shapeTolerance<S>()) << shape.index();
         }
     }
 }
@@ -212,12 +212,12 @@ TYPED_TEST(Exact, BoxAsHull) {
         corners.push_back(vec<S>(i & 1 ? 0.5 : -0.5, i & 2 ? 0.25 : -0.25, i & 4 ? 2.0 : -2.0));
     const Shape<S> hull = makeHull<S>(corners);
     const auto a = massProperties<S>(box, 7), b = massProperties<S>(hull, 7);
-    EXPECT_NEAR(a.mass, b.mass, tolerance<S>() * a.mass);
-    EXPECT_LE((a.center - b.center).norm(), tolerance<S>());
+    EXPECT_NEAR(a.mass, b.mass, shapeTolerance<S>() * a.mass);
+    EXPECT_LE((a.center - b.center).norm(), shapeTolerance<S>());
     for (int r = 0; r < (S::dim == 2 ? 1 : 3); ++r)
         for (int c = 0; c < (S::dim == 2 ? 1 : 3); ++c)
             EXPECT_NEAR(inertiaEntry(a.inertia, r, c), inertiaEntry(b.inertia, r, c),
-                        tolerance<S>() * inertiaEntry(a.inertia, 0, 0));
+                        shapeTolerance<S>() * inertiaEntry(a.inertia, 0, 0));
     if constexpr (S::dim == 3) {
         const double m = 7 * 8 * 0.5 * 0.25 * 2.0;  // m (b^2 + c^2) / 12 over full sides
         EXPECT_NEAR(inertiaEntry(a.inertia, 0, 0), m * (0.25 + 16.0) / 12, 1e-5 * m);

@@ -19,12 +19,12 @@ std::string scene(int dimension, const std::string& generator) {
            generator + "]}";
 }
 
-Scenario made(int dimension, const std::string& generator) {
+Scenario generated(int dimension, const std::string& generator) {
     return loadScenarioText(scene(dimension, generator), "t.json").scenario;
 }
 
 TEST(Grid, NamesAndPlaces) {
-    const Scenario s = made(3, R"({"grid": {"name": "g", "counts": [2, 3, 2], "origin": [1, 2, 3],
+    const Scenario s = generated(3, R"({"grid": {"name": "g", "counts": [2, 3, 2], "origin": [1, 2, 3],
         "spacing": [10, 20, 30], "body": {"shapes": [{"sphere": {"radius": 1}}]}}})");
     ASSERT_EQ(s.bodies.size(), 12u);
     const int index = findBody(s, "g_1_2_1");
@@ -35,7 +35,7 @@ TEST(Grid, NamesAndPlaces) {
 }
 
 TEST(Pyramid, RowsShrinkByOneAndEachRestsOnTwo) {
-    const Scenario s = made(2, R"({"pyramid": {"name": "p", "rows": 10, "origin": [0, 0.25],
+    const Scenario s = generated(2, R"({"pyramid": {"name": "p", "rows": 10, "origin": [0, 0.25],
         "spacing": [0.55, 0.5], "body": {"shapes": [{"box": {"half_extents": [0.25, 0.25]}}]}}})");
     ASSERT_EQ(s.bodies.size(), 55u);
     const auto at = [&](const std::string& name) { return s.bodies[findBody(s, name)].pose.position; };
@@ -49,14 +49,15 @@ TEST(Pyramid, RowsShrinkByOneAndEachRestsOnTwo) {
             EXPECT_NEAR(here.x, 0.5 * (left.x + right.x), 1e-14) << "in the middle of the two below";
             EXPECT_NEAR(here.y - left.y, 0.5, 1e-14) << "touching: no overlap, no gap";
         }
-    EXPECT_EQ(made(3, R"({"pyramid": {"name": "p", "rows": 4, "spacing": [1, 1, 1],
+    EXPECT_EQ(generated(3, R"({"pyramid": {"name": "p", "rows": 4, "spacing": [1, 1, 1],
         "body": {"shapes": [{"sphere": {"radius": 0.5}}]}}})")
                   .bodies.size(),
               16u + 9u + 4u + 1u);
 }
 
 TEST(Chain, LinksJoinEndToEnd) {
-    const Scenario s = made(2, R"({"chain": {"name": "c", "links": 4, "link_length": 0.5, "origin": [1, 2],
+    const Scenario s =
+        generated(2, R"({"chain": {"name": "c", "links": 4, "link_length": 0.5, "origin": [1, 2],
         "direction": [0, -2], "joint": "hinge", "body": {"mass": 0.1, "shapes": [{"box": {"half_extents": [0.05, 0.25]}}]},
         "end_body": {"mass": 7, "shapes": [{"circle": {"radius": 0.25}}]}}})");
     ASSERT_EQ(s.bodies.size(), 4u);
@@ -82,7 +83,7 @@ const char* const kPile =
 Scenario pile(int seed) {
     std::string text = kPile;
     text.replace(text.find("SEED"), 4, std::to_string(seed));
-    return made(3, text);
+    return generated(3, text);
 }
 
 TEST(Pile, TheSeedDecides) {
@@ -129,7 +130,7 @@ TEST(PortableRandomTest, FixedBits) {
 TEST(Table, EveryGeneratorIsDocumentedAndUnknownKeysAreRefused) {
     for (const Generator& generator : generatorTable()) {
         EXPECT_GT(std::string(generator.summary).size(), 10u);
-        EXPECT_THROW(made(3, std::string("{\"") + generator.name + "\": {\"nonsense\": 1}}"), LoadError);
+        EXPECT_THROW(generated(3, std::string("{\"") + generator.name + "\": {\"nonsense\": 1}}"), LoadError);
     }
 }
 

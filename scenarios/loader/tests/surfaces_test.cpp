@@ -10,7 +10,8 @@
 namespace rigor::scenario {
 namespace {
 
-std::string file(int dimension, const std::string& shape, const std::string& type = "\"type\": \"static\"") {
+std::string surfaceFile(int dimension, const std::string& shape,
+                        const std::string& type = "\"type\": \"static\"") {
     return R"({ "rigor": 1, "name": "s", "title": "t", "dimension": )" + std::to_string(dimension) +
            R"(, "gravity": )" + (dimension == 2 ? "[0, -9.81]" : "[0, -9.81, 0]") +
            R"(, "duration": 1, "dt": [0.01], "materials": { "m": { "friction": 0.5, "restitution": 0 } },
@@ -20,13 +21,13 @@ std::string file(int dimension, const std::string& shape, const std::string& typ
            (dimension == 2 ? "[0, 5]" : "[0, 5, 0]") + R"(, "shapes": [ { ")" +
            (dimension == 2 ? "circle" : "sphere") + R"(": { "radius": 0.1 } } ] } ] })";
 }
-Geometry load(int dimension, const std::string& shape) {
-    return loadScenarioText(file(dimension, shape), "s.json").scenario.bodies[0].shapes[0].geometry;
+Geometry loadSurface(int dimension, const std::string& shape) {
+    return loadScenarioText(surfaceFile(dimension, shape), "s.json").scenario.bodies[0].shapes[0].geometry;
 }
-std::string refusal(int dimension, const std::string& shape,
-                    const std::string& type = "\"type\": \"static\"") {
+std::string refusalOf(int dimension, const std::string& shape,
+                      const std::string& type = "\"type\": \"static\"") {
     try {
-        (void)loadScenarioText(file(dimension, shape, type), "s.json");
+        (void)loadScenarioText(surfaceFile(dimension, shape, type), "s.json");
     } catch (const LoadError& error) {
         return error.what();
     }
@@ -35,15 +36,15 @@ std::string refusal(int dimension, const std::string& shape,
 
 TEST(Surfaces, AreRead) {
     const auto chain =
-        std::get<Chain>(load(2, R"("chain": { "vertices": [[0, 0], [1, 0], [2, 1]], "loop": true })"));
+        std::get<Chain>(loadSurface(2, R"("chain": { "vertices": [[0, 0], [1, 0], [2, 1]], "loop": true })"));
     EXPECT_EQ(chain.vertices.size(), 3u);
     EXPECT_TRUE(chain.loop);
-    const auto mesh = std::get<TriangleMesh>(load(
+    const auto mesh = std::get<TriangleMesh>(loadSurface(
         3,
         R"("triangle_mesh": { "vertices": [[0, 0, 0], [0, 0, 1], [1, 0, 0]], "triangles": [[0, 1, 2]] })"));
     EXPECT_EQ(mesh.triangles.size(), 1u);
     EXPECT_EQ(mesh.triangles[0][2], 2);
-    const auto field = std::get<HeightField>(load(
+    const auto field = std::get<HeightField>(loadSurface(
         3, R"("height_field": { "spacing": [0.5, 2], "heights": [[0, 1, 2], [3, 4, 5]], "thickness": 3 })"));
     EXPECT_EQ(field.columns, 3);
     EXPECT_EQ(field.rows, 2);
@@ -56,12 +57,12 @@ TEST(Surfaces, AreRead) {
 }
 
 TEST(Surfaces, BadOnesAreRefusedWithTheReason) {
-    struct Bad {
+    struct BadSurface {
         int dimension;
         const char* shape;
         const char* reason;
     };
-    const Bad all[] = {
+    const BadSurface all[] = {
         {2, R"("chain": { "vertices": [[0, 0]] })", "two vertices"},
         {2, R"("chain": { "vertices": [[0, 0], [1, 0]], "loop": true })", "three vertices"},
         {2, R"("chain": { "vertices": [[0, 0], [1, 0], [1, 0]] })", "1 and 2 are at one place"},
@@ -77,15 +78,15 @@ TEST(Surfaces, BadOnesAreRefusedWithTheReason) {
         {3, R"("height_field": { "spacing": [1, 1], "heights": [[0, 1], [1]] })", "first row"},
         {3, R"("height_field": { "spacing": [0, 1], "heights": [[0, 1], [1, 2]] })", "spacing"},
     };
-    for (const Bad& bad : all) {
-        const std::string said = refusal(bad.dimension, bad.shape);
+    for (const BadSurface& bad : all) {
+        const std::string said = refusalOf(bad.dimension, bad.shape);
         EXPECT_NE(said.find(bad.reason), std::string::npos) << bad.shape << "\n" << said;
         EXPECT_NE(said.find("s.json"), std::string::npos) << said;
     }
-    EXPECT_NE(refusal(3, R"("chain": { "vertices": [[0, 0, 0], [1, 0, 0]] })").find("shape.dimension"),
+    EXPECT_NE(refusalOf(3, R"("chain": { "vertices": [[0, 0, 0], [1, 0, 0]] })").find("shape.dimension"),
               std::string::npos);
-    EXPECT_NE(refusal(3, R"("height_field": { "spacing": [1, 1], "heights": [[0, 1], [1, 2]] })",
-                      "\"mass\": 1, \"inertia\": [1, 1, 1]")
+    EXPECT_NE(refusalOf(3, R"("height_field": { "spacing": [1, 1], "heights": [[0, 1], [1, 2]] })",
+                        "\"mass\": 1, \"inertia\": [1, 1, 1]")
                   .find("shape.static"),
               std::string::npos);
 }

@@ -44,7 +44,7 @@ Names compared(const std::string& text) {
     return names;
 }
 
-bool isTest(const std::string& file) {
+bool isTestFile(const std::string& file) {
     return file.find("/tests/") != std::string::npos;
 }
 
@@ -63,7 +63,7 @@ TEST(Names, OfAlgorithmsAreComparedNowhere) {
     for (const std::string& file : sourceFiles({".cpp", ".hpp"})) {
         const bool own = file.starts_with("engine/") || file.starts_with("adapters/rigor/");
         const bool other = file.starts_with("cli/") || file.starts_with("validation/");
-        if ((!own && !other) || isTest(file)) continue;
+        if ((!own && !other) || isTestFile(file)) continue;
         for (const std::string& name : compared(readFile(file))) {
             if (!names.contains(name) || (other && kOtherWords.contains(name))) continue;
             EXPECT_TRUE(kMayCompare.contains({file, name})) << file << " compares with \"" << name << '"';
@@ -90,7 +90,7 @@ TEST(Names, OfTheInHouseEngineIsSpeltOnce) {
     const std::string deviations = "adapters/conformance/deviations.cpp";
     static const std::regex spelt(R"re("rigor[":])re");
     for (const std::string& file : sourceFiles({".cpp", ".hpp"})) {
-        if (file.starts_with("engine/") || file.starts_with("adapters/rigor/") || isTest(file)) continue;
+        if (file.starts_with("engine/") || file.starts_with("adapters/rigor/") || isTestFile(file)) continue;
         if (file == deviations) continue;
         const std::string code = withoutOtherMeanings(withoutComments(readFile(file)));
         const auto times = std::distance(std::sregex_iterator(code.begin(), code.end(), spelt), {});

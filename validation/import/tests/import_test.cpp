@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 using namespace scenario;
 using ::testing::HasSubstr;
 
-Imported importFrom(const fs::path& folder, const std::map<std::string, std::string>& options = {},
-                    const std::string& select = "all", const std::string& train = "") {
+Imported importTosses(const fs::path& folder, const std::map<std::string, std::string>& options = {},
+                      const std::string& select = "all", const std::string& train = "") {
     const ImporterEntry& importer = findImporter("cube-toss");
     return importer.read({folder, select, train, resolveChoices(importer, options)});
 }
@@ -53,7 +53,7 @@ TEST(Start, BothRulesFindTheStateOfAFlightOfClosedForm) {
                   return other.lines(30);
               }()));
     for (const char* start : {"rule", "flight"}) {
-        const Imported imported = importFrom(folder, {{"start", start}});
+        const Imported imported = importTosses(folder, {{"start", start}});
         ASSERT_EQ(imported.scenarios.size(), 2U);
         const Scenario s = loaded(imported.scenarios[0]);
         // The centre falls to 0.0512 sqrt(3) = 0.0887 m at frame 19: 0.15 + 0.1 t - 4.807 t^2.
@@ -76,7 +76,7 @@ TEST(Start, TheRecordingIsTheReferenceBitForBit) {
     const auto folder = freshFolder("reference");
     const Flight flight;
     writeText(folder / "toss_001.csv", tossText(flight.lines(30)));
-    const Scenario s = loaded(importFrom(folder).scenarios[0]);
+    const Scenario s = loaded(importTosses(folder).scenarios[0]);
     const auto reference = makeReference(s);
     for (int k = 0; k < 14; ++k) {
         const TossLine truth = flight.at((k + 16) / 148.0);
@@ -92,9 +92,9 @@ TEST(Start, UnitsChangeWhatTheyPromise) {
     const auto box = [](const Scenario& s) {
         return std::get<Box>(cubeOf(s).shapes[0].geometry).halfExtents.x;
     };
-    const Scenario own = loaded(importFrom(folder).scenarios[0]);
-    const Scenario scaled = loaded(importFrom(folder, {{"units", "rescaled"}}).scenarios[0]);
-    const Scenario published = loaded(importFrom(folder, {{"units", "published"}}).scenarios[0]);
+    const Scenario own = loaded(importTosses(folder).scenarios[0]);
+    const Scenario scaled = loaded(importTosses(folder, {{"units", "rescaled"}}).scenarios[0]);
+    const Scenario published = loaded(importTosses(folder, {{"units", "published"}}).scenarios[0]);
     EXPECT_EQ(box(own), 0.0512);
     EXPECT_EQ(box(scaled), 0.0524);
     EXPECT_EQ(box(published), 0.0524);
@@ -121,13 +121,13 @@ TEST(Selection, TrainAndTestAreSeparateAndListsAreChecked) {
         return std::count_if(imported.scenarios.begin(), imported.scenarios.end(),
                              [](const auto& s) { return s.train; });
     };
-    EXPECT_EQ(count(importFrom(folder)), 3) << "half of them without a list";
-    EXPECT_EQ(count(importFrom(folder, {}, "all", "0.34")), 2);
+    EXPECT_EQ(count(importTosses(folder)), 3) << "half of them without a list";
+    EXPECT_EQ(count(importTosses(folder, {}, "all", "0.34")), 2);
     writeText(folder / "selected.csv", "id,why\n2,spin\n10,slide\n");
-    const Imported listed = importFrom(folder, {}, "all", (folder / "selected.csv").string());
+    const Imported listed = importTosses(folder, {}, "all", (folder / "selected.csv").string());
     EXPECT_EQ(count(listed), 2);
     EXPECT_TRUE(listed.scenarios[1].train && listed.scenarios[5].train);
-    EXPECT_EQ(importFrom(folder, {}, (folder / "selected.csv").string()).scenarios.size(), 2U);
+    EXPECT_EQ(importTosses(folder, {}, (folder / "selected.csv").string()).scenarios.size(), 2U);
 
     const auto out = freshFolder("parts-out") / "mine";
     writeImported(listed, "mine", out);
@@ -141,7 +141,7 @@ TEST(Selection, TrainAndTestAreSeparateAndListsAreChecked) {
     const auto refused = [&](const std::string& list) {
         writeText(folder / "list.csv", list);
         try {
-            importFrom(folder, {}, (folder / "list.csv").string());
+            importTosses(folder, {}, (folder / "list.csv").string());
             return std::string();
         } catch (const LoadError& error) {
             return std::string(error.what());
@@ -156,13 +156,13 @@ TEST(Selection, TrainAndTestAreSeparateAndListsAreChecked) {
 }
 
 // ---------------------------------------- broken folders
-std::string refusal(const std::function<void(std::string&)>& edit) {
+std::string refusalOfEdit(const std::function<void(std::string&)>& edit) {
     const auto folder = freshFolder("broken");
     std::string text = tossText(Flight{}.lines(30));
     edit(text);
     writeText(folder / "toss_003.csv", text);
     try {
-        importFrom(folder);
+        importTosses(folder);
         return "";
     } catch (const LoadError& error) {
         return error.what();
@@ -180,29 +180,30 @@ auto put(int line, int column, const std::string& value) {
 }
 
 TEST(Broken, FilesAreRefusedWithFileLineFoundAndExpected) {
-    EXPECT_EQ(refusal([](std::string&) {}), "");
-    EXPECT_THAT(refusal(put(5, 2, "nan")),
+    EXPECT_EQ(refusalOfEdit([](std::string&) {}), "");
+    EXPECT_THAT(refusalOfEdit(put(5, 2, "nan")),
                 HasSubstr("toss_003.csv:5: (document): found 'nan' in column py, expected a finite number"));
-    EXPECT_THAT(refusal(put(6, 9, "fast")), HasSubstr("toss_003.csv:6"));
-    EXPECT_THAT(refusal(put(6, 9, "")), HasSubstr("found '' in column vy"));
-    EXPECT_THAT(refusal(put(1, 4, "w")), HasSubstr("expected a column 'qw'"));
-    EXPECT_THAT(refusal(put(1, 4, "px")), HasSubstr("expected one column 'px'"));
-    EXPECT_THAT(refusal(put(9, 4, "1.2")),
+    EXPECT_THAT(refusalOfEdit(put(6, 9, "fast")), HasSubstr("toss_003.csv:6"));
+    EXPECT_THAT(refusalOfEdit(put(6, 9, "")), HasSubstr("found '' in column vy"));
+    EXPECT_THAT(refusalOfEdit(put(1, 4, "w")), HasSubstr("expected a column 'qw'"));
+    EXPECT_THAT(refusalOfEdit(put(1, 4, "px")), HasSubstr("expected one column 'px'"));
+    EXPECT_THAT(refusalOfEdit(put(9, 4, "1.2")),
                 HasSubstr("toss_003.csv:9: (document): found a quaternion of length"));
-    EXPECT_THAT(refusal(put(9, 13, "1,2")), HasSubstr("found 15 values, expected 14"));
-    EXPECT_THAT(refusal(put(12, 0, "0.0608")), HasSubstr("toss_003.csv:12: (document): found t = 0.0608"));
-    EXPECT_THAT(refusal([](std::string& text) { text = kTossHeader; }),
+    EXPECT_THAT(refusalOfEdit(put(9, 13, "1,2")), HasSubstr("found 15 values, expected 14"));
+    EXPECT_THAT(refusalOfEdit(put(12, 0, "0.0608")),
+                HasSubstr("toss_003.csv:12: (document): found t = 0.0608"));
+    EXPECT_THAT(refusalOfEdit([](std::string& text) { text = kTossHeader; }),
                 HasSubstr("expected a header and values"));
-    EXPECT_THAT(refusal([](std::string& text) { text = tossText(Flight{}.lines(9)); }),
+    EXPECT_THAT(refusalOfEdit([](std::string& text) { text = tossText(Flight{}.lines(9)); }),
                 HasSubstr("found 9 frames"));
-    EXPECT_THAT(refusal([](std::string& text) { text = tossText(Flight{}.lines(12)); }),
+    EXPECT_THAT(refusalOfEdit([](std::string& text) { text = tossText(Flight{}.lines(12)); }),
                 HasSubstr("a cube that stays above the board"));
 }
 
 TEST(Broken, FoldersAreRefused) {
     const auto message = [](const fs::path& folder) {
         try {
-            importFrom(folder);
+            importTosses(folder);
             return std::string();
         } catch (const LoadError& error) {
             return std::string(error.what());
@@ -227,8 +228,8 @@ TEST(Broken, FoldersAreRefused) {
     writeText(names / "toss_1.csv", tossText(lines));
     writeText(names / "toss_01.csv", tossText(turned));
     EXPECT_THAT(message(names), HasSubstr("toss 1 a second time"));
-    EXPECT_THROW(importFrom(folder, {{"units", "inches"}}), std::invalid_argument);
-    EXPECT_THROW(importFrom(folder, {{"colour", "red"}}), std::invalid_argument);
+    EXPECT_THROW(importTosses(folder, {{"units", "inches"}}), std::invalid_argument);
+    EXPECT_THROW(importTosses(folder, {{"colour", "red"}}), std::invalid_argument);
     EXPECT_THROW((void)findImporter("teapot"), std::invalid_argument);
 }
 
@@ -265,7 +266,7 @@ TEST(DataFolder, IsFoundInTheFoldersAboveIt) {
     fs::create_directories(renamed);
     EXPECT_EQ(dataFolder("compound-pendulum", renamed), renamed) << "any other name is taken as it is";
 
-    const auto refusal = [](const fs::path& given) -> std::string {
+    const auto refusalOfEdit = [](const fs::path& given) -> std::string {
         try {
             dataFolder("compound-pendulum", given);
             return "";
@@ -273,11 +274,11 @@ TEST(DataFolder, IsFoundInTheFoldersAboveIt) {
             return error.what();
         }
     };
-    EXPECT_THAT(refusal(cart), HasSubstr("the folder of rolling-cart"));
-    EXPECT_THAT(refusal(data / "lab" / "compound"), HasSubstr("compound-pendulum, rolling-cart"));
-    EXPECT_THAT(refusal(data / "lab" / "compound"), HasSubstr("nothing; in "));
+    EXPECT_THAT(refusalOfEdit(cart), HasSubstr("the folder of rolling-cart"));
+    EXPECT_THAT(refusalOfEdit(data / "lab" / "compound"), HasSubstr("compound-pendulum, rolling-cart"));
+    EXPECT_THAT(refusalOfEdit(data / "lab" / "compound"), HasSubstr("nothing; in "));
     std::ofstream(data / "a_file") << "x";
-    EXPECT_THAT(refusal(data / "a_file"), HasSubstr("a file"));
+    EXPECT_THAT(refusalOfEdit(data / "a_file"), HasSubstr("a file"));
     fs::remove_all(data);
 }
 
@@ -286,7 +287,7 @@ TEST(RealTosses, ComeOutAsTheirDescriptionSays) {
     if (data == nullptr || !fs::exists(fs::path(data) / "cube-toss"))
         GTEST_SKIP() << "RIGOR_DATA names no folder with cube-toss/ in it: the measured tosses are not part "
                         "of the repo";
-    const Imported imported = importFrom(fs::path(data) / "cube-toss", {{"units", "published"}});
+    const Imported imported = importTosses(fs::path(data) / "cube-toss", {{"units", "published"}});
     ASSERT_GT(imported.scenarios.size(), 100U);
     double frozen = 0.0, vertical = 0.0;
     for (const ImportedScenario& one : imported.scenarios) {

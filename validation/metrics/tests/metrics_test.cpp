@@ -19,7 +19,7 @@ namespace {
 
 using adapter::Scheme;
 
-struct Case {
+struct MetricCase {
     Scenario scenario;
     std::unique_ptr<Reference> reference;
     Trajectory run;
@@ -39,8 +39,8 @@ struct Case {
 };
 
 /// Two balls in free flight, recorded exactly: 101 frames of 0.01 s.
-std::unique_ptr<Case> flight() {
-    auto c = std::make_unique<Case>();
+std::unique_ptr<MetricCase> flight() {
+    auto c = std::make_unique<MetricCase>();
     c->scenario = emptyScene(3, {0, -9.81, 0}, 1);
     addBall(c->scenario, "a", 0.1, 2, 0.4, {0, 10, 0}, {3, 1, 0}, {0, 0, 4});
     addBall(c->scenario, "b", 0.2, 1, 0.4, {0, 20, 5}, {0, 0, -2});
@@ -96,7 +96,7 @@ TEST(StateError, OnlyObservedBodiesAndValidFramesCount) {
     c->state(100, 0).position += {1, 0, 0};
     c->scenario.observed = {1};
     EXPECT_LT(c->worst("position_max"), 1e-14);
-    Case none{c->scenario, nullptr, c->run};
+    MetricCase none{c->scenario, nullptr, c->run};
     for (const char* name : {"position_final", "velocity_max", "orientation_max", "quantity_error",
                              "scheme_position_max", "rest_motion", "energy_error"})
         EXPECT_TRUE(none.rows(name).empty()) << name;
@@ -186,7 +186,7 @@ TEST(Energy, AppliesOnlyWhereItShould) {
     EXPECT_TRUE(c->rows("energy_drift").empty());
     EXPECT_FALSE(c->rows("energy_gain").empty());  // drag can only take
     // A sliding block loses energy: no drift, but gain and the exact solution's energy.
-    Case slide;
+    MetricCase slide;
     slide.scenario = emptyScene(3, {0, -9.81, 0}, 1);
     addFloor(slide.scenario);
     addBox(slide.scenario, "block", {0.2, 0.1, 0.2}, 1, {0, 0.1, 0}, {2, 0, 0});
@@ -200,7 +200,7 @@ TEST(Energy, AppliesOnlyWhereItShould) {
     slide.state(100, 1).velocity = {1, 0, 0};
     EXPECT_NEAR(slide.worst("energy_gain"), 0.5 / 2.0, 1e-12);
     // Rolling keeps energy in spite of friction: the exact solution says so.
-    Case roll;
+    MetricCase roll;
     roll.scenario = emptyScene(3, {1, -9.81, 0}, 1);
     addFloor(roll.scenario);
     addBall(roll.scenario, "ball", 0.1, 1, 0.4, {0, 0.1, 0});
@@ -226,14 +226,14 @@ TEST(Momentum, InjectedDriftAndInapplicability) {
     addFloor(spin->scenario);
     spin->reference = makeReference(spin->scenario);  // it refers to the bodies, which have moved in memory
     spin->run = Trajectory{};
-    Case floor{spin->scenario, nullptr, exactRun(spin->scenario, *spin->reference, 0.01, 10)};
+    MetricCase floor{spin->scenario, nullptr, exactRun(spin->scenario, *spin->reference, 0.01, 10)};
     EXPECT_TRUE(floor.rows("linear_momentum_drift").empty());
     EXPECT_TRUE(floor.rows("angular_momentum_drift").empty());
 }
 
 /// A ball at rest on a half-space and one on a box.
-std::unique_ptr<Case> resting() {
-    auto c = std::make_unique<Case>();
+std::unique_ptr<MetricCase> restingBalls() {
+    auto c = std::make_unique<MetricCase>();
     c->scenario = emptyScene(3, {0, -9.81, 0}, 1);
     addFloor(c->scenario);
     addBox(c->scenario, "box", {0.5, 0.5, 0.5}, 2, {0, 0.5, 0});
@@ -246,7 +246,7 @@ std::unique_ptr<Case> resting() {
 
 /// A contact is held against the poses of its own frame: the box is tilted at frame 20 alone.
 TEST(Contacts, NormalsBelongToThePosesOfTheirFrame) {
-    const auto c = resting();
+    const auto c = restingBalls();
     c->state(20, 1).orientation = scenario::fromAxisAngle({0, 0, 1}, 0.1);
     ContactPoint touch;
     touch.bodyA = 1;
@@ -264,7 +264,7 @@ TEST(Contacts, NormalsBelongToThePosesOfTheirFrame) {
 }
 
 TEST(Contacts, DepthOverlapAndNormals) {
-    const auto c = resting();
+    const auto c = restingBalls();
     EXPECT_EQ(c->worst("penetration_max"), 0.0);
     EXPECT_LT(c->worst("overlap_max"), 1e-15);
     EXPECT_TRUE(c->rows("normal_error").empty());
@@ -315,7 +315,7 @@ TEST(ClosedForms, DistancesAndNormalsOfPosedPairs) {
 }
 
 TEST(Joints, InjectedSeparationAndTilt) {
-    Case c;
+    MetricCase c;
     c.scenario = emptyScene(3, {}, 1);
     addBox(c.scenario, "rod", {0.1, 0.5, 0.1}, 1, {0, -0.5, 0});
     addBox(c.scenario, "slide", {0.1, 0.1, 0.1}, 1, {3, 0, 0});
@@ -351,7 +351,7 @@ TEST(Joints, InjectedSeparationAndTilt) {
 
 /// A body at each joint with limits, and a run in which it stands still but for what the test moves.
 TEST(Joints, InjectedLimitViolation) {
-    Case c;
+    MetricCase c;
     c.scenario = emptyScene(3, {}, 1);
     const Vec3 axis{0, 0, 1}, along{1, 0, 0};
     const auto add = [&](JointType type, std::size_t k, double lower, double upper, Vec3 a) {
@@ -415,7 +415,7 @@ TEST(Joints, InjectedLimitViolation) {
 
 /// Springs, motors and stops of joints store, add and take energy: its change measures nothing there.
 TEST(Energy, DoesNotJudgeDrivenJoints) {
-    Case c;
+    MetricCase c;
     c.scenario = emptyScene(3, {0, -9.81, 0}, 1);
     addBall(c.scenario, "ball", 0.1, 1, 0.4, {0, 1, 0});
     c.scenario.bodies[0].collides = false;
@@ -451,7 +451,7 @@ TEST(Energy, DoesNotJudgeDrivenJoints) {
 }
 
 TEST(Rest, SinkCreepJitterTurn) {
-    const auto c = resting();
+    const auto c = restingBalls();
     for (const char* name :
          {"rest_motion", "rest_sink", "rest_creep", "rest_turn", "rest_jitter", "kinetic_energy_final"})
         EXPECT_EQ(c->worst(name), 0.0) << name;
@@ -472,7 +472,7 @@ TEST(Rest, SinkCreepJitterTurn) {
 }
 
 TEST(Quantities, RelativeErrorsMissingEventsAndTimes) {
-    Case c;
+    MetricCase c;
     c.scenario = emptyScene(3, {0, -9.81, 0}, 2);
     addBall(c.scenario, "ball", 0.1, 1, 0.4, {0, 1.1, 0});
     addFloor(c.scenario);
@@ -483,7 +483,7 @@ TEST(Quantities, RelativeErrorsMissingEventsAndTimes) {
     EXPECT_LT(c.worst("quantity_error"), 1e-10);
     EXPECT_LT(c.worst("event_time_error"), 1e-10);
     // A clock that runs 1 % fast: every event time is off by 1 % of itself.
-    Case fast{c.scenario, makeReference(c.scenario), c.run};
+    MetricCase fast{c.scenario, makeReference(c.scenario), c.run};
     for (auto& t : fast.run.times) t *= 1.01;
     fast.run.dt *= 1.01;
     for (const auto& row : fast.rows("event_time_error")) {
@@ -491,7 +491,7 @@ TEST(Quantities, RelativeErrorsMissingEventsAndTimes) {
         EXPECT_LT(row.value, 0.011 * 1.752);
     }
     // A ball that never comes back counts fully.
-    Case stuck{c.scenario, makeReference(c.scenario), c.run};
+    MetricCase stuck{c.scenario, makeReference(c.scenario), c.run};
     for (std::size_t k = 0; k < stuck.run.frames(); ++k) stuck.state(k, 0).velocity = {};
     EXPECT_EQ(stuck.worst("quantity_error"), 1.0);
     EXPECT_EQ(stuck.worst("event_time_error"), 2.0);
@@ -499,7 +499,7 @@ TEST(Quantities, RelativeErrorsMissingEventsAndTimes) {
 }
 
 TEST(Robustness, NotANumberIsInfinitelyWrongAndNothingThrows) {
-    for (auto* make : {+[] { return flight(); }, +[] { return resting(); }}) {
+    for (auto* make : {+[] { return flight(); }, +[] { return restingBalls(); }}) {
         const auto c = make();
         const double nan = std::numeric_limits<double>::quiet_NaN();
         for (std::size_t k = 50; k < c->run.frames(); ++k)
@@ -510,7 +510,7 @@ TEST(Robustness, NotANumberIsInfinitelyWrongAndNothingThrows) {
         EXPECT_EQ(c->worst("position_final"), std::numeric_limits<double>::infinity());
         EXPECT_EQ(c->worst("energy_gain"), std::numeric_limits<double>::infinity());
         EXPECT_NO_THROW((void)diagnosticSeries(c->input()));
-        Case empty{c->scenario, makeReference(c->scenario), Trajectory{}};
+        MetricCase empty{c->scenario, makeReference(c->scenario), Trajectory{}};
         empty.run.bodyCount = c->run.bodyCount;
         for (const auto& entry : metricTable())
             EXPECT_TRUE(entry.evaluate(empty.input()).empty()) << entry.name;

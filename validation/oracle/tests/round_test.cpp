@@ -20,14 +20,14 @@ constexpr double kPi = std::numbers::pi;
 const Quat kLying = fromAxisAngle({0, 0, 1}, kPi / 2);   // axis y to -x
 const Quat kLyingZ = fromAxisAngle({1, 0, 0}, kPi / 2);  // axis y to z
 
-Pose at(double x, double y, double z, Quat q = {}) {
+Pose placed(double x, double y, double z, Quat q = {}) {
     return {{x, y, z}, q};
 }
-OracleAnswer contact(const Geometry& a, const Pose& Xa, const Geometry& b, const Pose& Xb) {
+OracleAnswer roundContact(const Geometry& a, const Pose& Xa, const Geometry& b, const Pose& Xb) {
     return exactContact(a, Xa, b, Xb, 3).value();
 }
-double distanceOf(const Geometry& a, const Pose& Xa, const Geometry& b, const Pose& Xb) {
-    return contact(a, Xa, b, Xb).signedDistance;
+double roundDistance(const Geometry& a, const Pose& Xa, const Geometry& b, const Pose& Xb) {
+    return roundContact(a, Xa, b, Xb).signedDistance;
 }
 bool hasNormal(const OracleAnswer& answer, Vec3 n) {
     for (const Vec3& m : answer.normals)
@@ -40,40 +40,42 @@ const Geometry kCan = Cylinder{0.5, 1.0};
 const Geometry kHat = Cone{0.6, 0.4};  // side: 0.6 across on 0.8 up, so its normals are (0.8, 0.6)
 
 TEST(RoundOracle, BallsAroundACylinder) {
-    EXPECT_NEAR(distanceOf(kCan, {}, Sphere{0.1}, at(0.9, 0.3, 0)), 0.3, 1e-15);    // side
-    EXPECT_NEAR(distanceOf(kCan, {}, Sphere{0.1}, at(0.1, 1.5, 0.2)), 0.4, 1e-15);  // cap
-    EXPECT_NEAR(distanceOf(kCan, {}, Sphere{0.1}, at(0.8, 1.4, 0)), 0.4, 1e-15);    // rim: 3, 4, 5
-    EXPECT_NEAR(distanceOf(kCan, {}, Sphere{0.1}, at(0.3, 0.2, 0)), -0.3, 1e-15);   // inside, near the side
-    EXPECT_NEAR(distanceOf(kCan, {}, Sphere{0.1}, at(0.1, 0.8, 0)), -0.3, 1e-15);   // inside, near the cap
+    EXPECT_NEAR(roundDistance(kCan, {}, Sphere{0.1}, placed(0.9, 0.3, 0)), 0.3, 1e-15);    // side
+    EXPECT_NEAR(roundDistance(kCan, {}, Sphere{0.1}, placed(0.1, 1.5, 0.2)), 0.4, 1e-15);  // cap
+    EXPECT_NEAR(roundDistance(kCan, {}, Sphere{0.1}, placed(0.8, 1.4, 0)), 0.4, 1e-15);    // rim: 3, 4, 5
+    EXPECT_NEAR(roundDistance(kCan, {}, Sphere{0.1}, placed(0.3, 0.2, 0)), -0.3,
+                1e-15);  // inside, near the side
+    EXPECT_NEAR(roundDistance(kCan, {}, Sphere{0.1}, placed(0.1, 0.8, 0)), -0.3,
+                1e-15);  // inside, near the cap
 }
 
 TEST(RoundOracle, BallsAroundACone) {
     // The side's line: 0.8 r + 0.6 y = 0.24.
-    EXPECT_NEAR(distanceOf(kHat, {}, Sphere{0.1}, at(0.9, 0, 0)), 0.8 * 0.9 - 0.24 - 0.1, 1e-15);
-    EXPECT_NEAR(distanceOf(kHat, {}, Sphere{0.1}, at(0, 0.7, 0)), 0.2, 1e-15);      // apex
-    EXPECT_NEAR(distanceOf(kHat, {}, Sphere{0.1}, at(0.9, -0.8, 0)), 0.4, 1e-15);   // rim: 3, 4, 5
-    EXPECT_NEAR(distanceOf(kHat, {}, Sphere{0.1}, at(0.1, -0.3, 0)), -0.2, 1e-15);  // inside, base
-    EXPECT_NEAR(distanceOf(kHat, {}, Sphere{0.1}, at(0, 0.1, 0.1)), 0.08 + 0.06 - 0.34, 1e-15);
+    EXPECT_NEAR(roundDistance(kHat, {}, Sphere{0.1}, placed(0.9, 0, 0)), 0.8 * 0.9 - 0.24 - 0.1, 1e-15);
+    EXPECT_NEAR(roundDistance(kHat, {}, Sphere{0.1}, placed(0, 0.7, 0)), 0.2, 1e-15);      // apex
+    EXPECT_NEAR(roundDistance(kHat, {}, Sphere{0.1}, placed(0.9, -0.8, 0)), 0.4, 1e-15);   // rim: 3, 4, 5
+    EXPECT_NEAR(roundDistance(kHat, {}, Sphere{0.1}, placed(0.1, -0.3, 0)), -0.2, 1e-15);  // inside, base
+    EXPECT_NEAR(roundDistance(kHat, {}, Sphere{0.1}, placed(0, 0.1, 0.1)), 0.08 + 0.06 - 0.34, 1e-15);
 }
 
 TEST(RoundOracle, HalfSpaces) {
     const Geometry floor = HalfSpace{{0, 1, 0}, 0.25};
-    const auto standing = contact(floor, {}, kCan, at(3, 1.2, 1));
+    const auto standing = roundContact(floor, {}, kCan, placed(3, 1.2, 1));
     EXPECT_NEAR(standing.signedDistance, -0.05, 1e-15);
     EXPECT_NEAR(norm(standing.witnessB - Vec3{3, 0.2, 1}), 0, 1e-15);
-    EXPECT_NEAR(distanceOf(kCan, at(0, 1, 0, kLying), floor, {}), 0.25, 1e-15);
+    EXPECT_NEAR(roundDistance(kCan, placed(0, 1, 0, kLying), floor, {}), 0.25, 1e-15);
     const Quat tilt = fromAxisAngle({0, 0, 1}, std::atan2(3.0, 4.0));
-    EXPECT_NEAR(distanceOf(floor, {}, kCan, at(0, 2, 0, tilt)), 2 - 0.8 - 0.3 - 0.25, 1e-15);
-    EXPECT_NEAR(distanceOf(floor, {}, kHat, at(0, 2, 0, fromAxisAngle({1, 0, 0}, kPi))), 1.35, 1e-15);
+    EXPECT_NEAR(roundDistance(floor, {}, kCan, placed(0, 2, 0, tilt)), 2 - 0.8 - 0.3 - 0.25, 1e-15);
+    EXPECT_NEAR(roundDistance(floor, {}, kHat, placed(0, 2, 0, fromAxisAngle({1, 0, 0}, kPi))), 1.35, 1e-15);
 }
 
 TEST(RoundOracle, TwoCylinders) {
-    EXPECT_NEAR(distanceOf(kCan, {}, kCan, at(0.9, 0.3, 0)), -0.1, 1e-15);            // side by side
-    EXPECT_NEAR(distanceOf(kCan, {}, kCan, at(0.9, 1.95, 0)), -0.05, 1e-15);          // cap on cap
-    EXPECT_NEAR(distanceOf(kCan, {}, kCan, at(0.2, 0.1, 0.9, kLying)), -0.1, 1e-15);  // crossed sides
-    EXPECT_NEAR(distanceOf(kCan, {}, kCan, at(0, 1.4, 0, kLying)), -0.1, 1e-15);      // side on cap
-    EXPECT_NEAR(distanceOf(kCan, {}, kCan, at(1.3, 2.4, 0)), 0.5, 1e-15);             // rims: 3, 4, 5
-    const auto crossed = contact(kCan, {}, kCan, at(0, 0, 0, kLying));
+    EXPECT_NEAR(roundDistance(kCan, {}, kCan, placed(0.9, 0.3, 0)), -0.1, 1e-15);            // side by side
+    EXPECT_NEAR(roundDistance(kCan, {}, kCan, placed(0.9, 1.95, 0)), -0.05, 1e-15);          // cap on cap
+    EXPECT_NEAR(roundDistance(kCan, {}, kCan, placed(0.2, 0.1, 0.9, kLying)), -0.1, 1e-15);  // crossed sides
+    EXPECT_NEAR(roundDistance(kCan, {}, kCan, placed(0, 1.4, 0, kLying)), -0.1, 1e-15);      // side on cap
+    EXPECT_NEAR(roundDistance(kCan, {}, kCan, placed(1.3, 2.4, 0)), 0.5, 1e-15);             // rims: 3, 4, 5
+    const auto crossed = roundContact(kCan, {}, kCan, placed(0, 0, 0, kLying));
     EXPECT_NEAR(crossed.signedDistance, -1.0, 1e-15);
     EXPECT_EQ(crossed.normals.size(), 2u);
     EXPECT_TRUE(hasNormal(crossed, {0, 0, 1}) && hasNormal(crossed, {0, 0, -1}));
@@ -83,7 +85,7 @@ TEST(RoundOracle, TwoCylinders) {
 TEST(RoundOracle, CoaxialAndIdentical) {
     const Geometry pin = Cylinder{0.2, 3.0};
     const Quat any = normalized(Quat{0.3, -0.5, 0.7, 0.2});
-    const auto pinned = contact(kCan, at(1, 2, 3, any), pin, at(1, 2, 3, any));
+    const auto pinned = roundContact(kCan, placed(1, 2, 3, any), pin, placed(1, 2, 3, any));
     EXPECT_NEAR(pinned.signedDistance, -0.7, 1e-15);
     EXPECT_TRUE(pinned.continuum);
     EXPECT_GE(pinned.normals.size(), 16u);
@@ -92,14 +94,14 @@ TEST(RoundOracle, CoaxialAndIdentical) {
     // A cone in itself, apex to base: along the normals of its side, twice the way from them to the axis'
     // ends.
     const double r = 0.3, half = 0.8;
-    const auto same = contact(Cone{r, half}, at(1, 2, 3, any), Cone{r, half}, at(1, 2, 3, any));
+    const auto same = roundContact(Cone{r, half}, placed(1, 2, 3, any), Cone{r, half}, placed(1, 2, 3, any));
     EXPECT_TRUE(same.continuum);
     EXPECT_NEAR(same.signedDistance, -4 * half * r / std::hypot(r, 2 * half), 1e-15);
-    const auto flat = contact(Cylinder{1.0, 0.1}, {}, Cylinder{1.0, 0.1}, {});
+    const auto flat = roundContact(Cylinder{1.0, 0.1}, {}, Cylinder{1.0, 0.1}, {});
     EXPECT_NEAR(flat.signedDistance, -0.2, 1e-15);
     EXPECT_FALSE(flat.continuum);
     EXPECT_EQ(flat.normals.size(), 2u);
-    const auto nearly = contact(kCan, {}, pin, at(1e-5, 0, 0));
+    const auto nearly = roundContact(kCan, {}, pin, placed(1e-5, 0, 0));
     EXPECT_NEAR(nearly.signedDistance, -0.7 + 1e-5, 1e-15);
     EXPECT_FALSE(nearly.continuum);
 }
@@ -107,7 +109,7 @@ TEST(RoundOracle, CoaxialAndIdentical) {
 /// A box with an edge on the axis of a cylinder: half a ring of penetration vectors, of which a quarter is as
 /// short.
 TEST(RoundOracle, PartOfARing) {
-    const auto answer = contact(kCan, {}, Box{{2, 2, 2}}, at(2, 0, 2));
+    const auto answer = roundContact(kCan, {}, Box{{2, 2, 2}}, placed(2, 0, 2));
     EXPECT_NEAR(answer.signedDistance, -0.5, 1e-15);
     EXPECT_TRUE(answer.continuum);
     EXPECT_TRUE(hasNormal(answer, {1, 0, 0}) && hasNormal(answer, {0, 0, 1}));
@@ -115,11 +117,11 @@ TEST(RoundOracle, PartOfARing) {
 }
 
 TEST(RoundOracle, CapsulesAndBoxes) {
-    EXPECT_NEAR(distanceOf(kCan, {}, Capsule{0.1, 1}, at(0.7, 0.3, 0)), 0.1, 1e-15);
-    EXPECT_NEAR(distanceOf(kCan, {}, Capsule{0.1, 1}, at(0, 0, 0.55, kLying)), -0.05, 1e-15);
-    EXPECT_TRUE(contact(kCan, {}, Capsule{0.1, 4}, {}).continuum);
-    EXPECT_NEAR(distanceOf(Box{{1, 1, 1}}, {}, kHat, at(0.2, 1.3, 0.1)), -0.1, 1e-15);
-    EXPECT_NEAR(distanceOf(Box{{1, 1, 1}}, {}, kCan, at(0, 1.4, 0, kLyingZ)), -0.1, 1e-15);
+    EXPECT_NEAR(roundDistance(kCan, {}, Capsule{0.1, 1}, placed(0.7, 0.3, 0)), 0.1, 1e-15);
+    EXPECT_NEAR(roundDistance(kCan, {}, Capsule{0.1, 1}, placed(0, 0, 0.55, kLying)), -0.05, 1e-15);
+    EXPECT_TRUE(roundContact(kCan, {}, Capsule{0.1, 4}, {}).continuum);
+    EXPECT_NEAR(roundDistance(Box{{1, 1, 1}}, {}, kHat, placed(0.2, 1.3, 0.1)), -0.1, 1e-15);
+    EXPECT_NEAR(roundDistance(Box{{1, 1, 1}}, {}, kCan, placed(0, 1.4, 0, kLyingZ)), -0.1, 1e-15);
 }
 
 // -------------------------------------------------------------------------------- a method without features
@@ -218,7 +220,7 @@ class Search {
     double best_ = 1e300;
 };
 
-struct Random {
+struct RandomRound {
     std::mt19937 generator;
     double uniform(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(generator);
@@ -270,12 +272,12 @@ struct Random {
 };
 
 TEST(RoundOracle, IsBracketedByTheSearchOverDirections) {
-    Random random{std::mt19937(5)};
+    RandomRound random{std::mt19937(5)};
     int overlapping = 0, apart = 0, rings = 0;
     for (int i = 0; i < 400; ++i) {
         const Geometry a = random.round(), b = random.shape();
         const Pose Xa{}, Xb = random.pose();
-        const auto answer = contact(a, Xa, b, Xb);
+        const auto answer = roundContact(a, Xa, b, Xb);
         const Bracket bracket = Search(a, Xa, b, Xb).run(1e-9, 40000);
         EXPECT_GE(answer.signedDistance, bracket.low - 1e-14) << i;
         EXPECT_LE(answer.signedDistance, bracket.high + 1e-14) << i;
@@ -292,8 +294,8 @@ TEST(RoundOracle, IsBracketedByTheSearchOverDirections) {
         // Directions are known to half the digits of a value that is flat over them.
         EXPECT_LE(norm(gap - answer.signedDistance * answer.normals[0]), 2e-10) << i;
         const double dot = 1e-9;  // the points are on the surfaces
-        EXPECT_NEAR(distanceOf(a, Xa, Sphere{dot}, {answer.witnessA, {}}), -dot, 2e-10) << i;
-        EXPECT_NEAR(distanceOf(b, Xb, Sphere{dot}, {answer.witnessB, {}}), -dot, 2e-10) << i;
+        EXPECT_NEAR(roundDistance(a, Xa, Sphere{dot}, {answer.witnessA, {}}), -dot, 2e-10) << i;
+        EXPECT_NEAR(roundDistance(b, Xb, Sphere{dot}, {answer.witnessB, {}}), -dot, 2e-10) << i;
     }
     EXPECT_GT(overlapping, 100);
     EXPECT_GT(apart, 100);
@@ -303,35 +305,35 @@ TEST(RoundOracle, IsBracketedByTheSearchOverDirections) {
 /// B moved out along the best way by t is t nearer to separation, whatever t: touching, near touching and
 /// apart have the same result as deep. Turned, moved far, swapped and scaled: the same.
 TEST(RoundOracle, MovesAndFramesKeepTheAnswer) {
-    Random random{std::mt19937(6)};
+    RandomRound random{std::mt19937(6)};
     for (int i = 0; i < 150; ++i) {
         const Geometry a = random.round(), b = random.shape();
         const Pose Xa{}, Xb = random.pose();
-        const auto answer = contact(a, Xa, b, Xb);
+        const auto answer = roundContact(a, Xa, b, Xb);
         const double sd = answer.signedDistance;
         const double left = std::max(0.0, -sd);
         for (const double target : {-0.5 * left, -1e-3, -1e-9, 0.0, 1e-9, 1e-3, 0.3}) {
             if (target < sd) continue;
             const Pose moved{Xb.position + (target - sd) * answer.normals[0], Xb.orientation};
-            const auto then = contact(a, Xa, b, moved);
+            const auto then = roundContact(a, Xa, b, moved);
             EXPECT_NEAR(then.signedDistance, target, 1e-15) << i;
             EXPECT_TRUE(hasNormal(then, answer.normals[0])) << i << " " << target;
         }
-        EXPECT_NEAR(distanceOf(b, Xb, a, Xa), sd, 1e-15) << i;
+        EXPECT_NEAR(roundDistance(b, Xb, a, Xa), sd, 1e-15) << i;
         const Pose far{{1e4, -2e4, 1e4}, random.rotation()};
-        EXPECT_NEAR(distanceOf(a, far * Xa, b, far * Xb), sd, 2e-11) << i;
+        EXPECT_NEAR(roundDistance(a, far * Xa, b, far * Xb), sd, 2e-11) << i;
     }
 }
 
 TEST(RoundOracle, ScalesWithTheShapes) {
-    Random random{std::mt19937(8)};
+    RandomRound random{std::mt19937(8)};
     for (int i = 0; i < 100; ++i) {
         const double r = random.length(), h = random.length(), s = random.length(), k = random.length();
         const Pose X = random.pose();
-        const double sd = distanceOf(Cone{r, h}, {}, Cylinder{s, k}, X);
+        const double sd = roundDistance(Cone{r, h}, {}, Cylinder{s, k}, X);
         for (const double scale : {1.0 / 1024, 1024.0}) {
             const Pose scaled{scale * X.position, X.orientation};
-            EXPECT_NEAR(distanceOf(Cone{scale * r, scale * h}, {}, Cylinder{scale * s, scale * k}, scaled),
+            EXPECT_NEAR(roundDistance(Cone{scale * r, scale * h}, {}, Cylinder{scale * s, scale * k}, scaled),
                         scale * sd, scale * 1e-17)
                 << i;
         }

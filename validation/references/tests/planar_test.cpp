@@ -163,11 +163,11 @@ TEST(PlanarContact, RodOnIceFallsStraightDown) {
     EXPECT_NEAR(t->exact(1, 0.5).position->y - 0.07, r->exact(1, 0.5).position->y, 1e-10);
 }
 
-struct Hit {
+struct PlanarHit {
     double inertia, rx, ry, vx, vy, mu, e;
     double x, y, w;
 };
-Scenario cornerHit(const Hit& h) {
+Scenario cornerHit(const PlanarHit& h) {
     Scenario s = onFloor(0.4, h.mu, h.e);
     s.gravity = {};
     addBody(s, "body", BodyType::Dynamic, ConvexHull{{{h.rx, h.ry, 0}, {1, 0.5, 0}, {-1, 0.5, 0}}},
@@ -178,11 +178,11 @@ Scenario cornerHit(const Hit& h) {
 }
 
 TEST(PlanarContact, CornerImpactsOfTheCatalogue) {
-    const Hit hits[] = {
+    const PlanarHit hits[] = {
         {0.1, 0.2, -0.4, 1, -2, 0.2, 0.5, 0.5161290323, 0.4193548387, 2.903225806},
         {0.1, -0.2, -0.4, 0.2, -2, 0.8, 0.5, 0.9066666667, 0.5466666667, -2.266666667},
         {1.0 / 12, -0.25, -0.4330127019, 0.6, -2, 0.3, 0.5, 1.261624321, 0.2054144024, -3.17834239}};
-    for (const Hit& h : hits) {
+    for (const PlanarHit& h : hits) {
         const Scenario s = cornerHit(h);
         const auto r = makeReference(s);
         EXPECT_NEAR(quantity(*r, "impact_time_1"), 0.15, 1e-12);

@@ -24,7 +24,7 @@ void expectVec(Vec3 actual, Vec3 expected, double tolerance) {
     EXPECT_NEAR(actual.y, expected.y, tolerance);
     EXPECT_NEAR(actual.z, expected.z, tolerance);
 }
-void expectQuat(Quat actual, Quat expected, double tolerance) {
+void expectSameRotation(Quat actual, Quat expected, double tolerance) {
     const double sign =
         actual.w * expected.w + actual.x * expected.x + actual.y * expected.y + actual.z * expected.z < 0 ? -1
                                                                                                           : 1;
@@ -163,12 +163,12 @@ Scenario top(Mat3 inertia, Vec3 bodyRates, Quat orientation, double duration) {
 
 TEST(TorqueFreeTop, CatalogueValues) {
     const Scenario symmetric = top(Mat3::diagonal(1, 1, 2), {1, 0, 5}, {}, 2);
-    expectQuat(*makeReference(symmetric)->exact(0, 1).orientation,
-               {0.8129913426, -0.07585472569, 0.05666517144, -0.574526062}, 1e-9);
+    expectSameRotation(*makeReference(symmetric)->exact(0, 1).orientation,
+                       {0.8129913426, -0.07585472569, 0.05666517144, -0.574526062}, 1e-9);
     const Scenario flip = top(Mat3::diagonal(1, 2, 3), {0.01, 5, 0}, {}, 20);
     const auto reference = makeReference(flip);
-    expectQuat(*reference->exact(0, 5).orientation,
-               {0.001251148124, 0.8309639855, -0.0002788146628, 0.5563247358}, 1e-8);
+    expectSameRotation(*reference->exact(0, 5).orientation,
+                       {0.001251148124, 0.8309639855, -0.0002788146628, 0.5563247358}, 1e-8);
     const auto e = reference->exact(0, 2);
     expectVec(rotateInverse(*e.orientation, *e.angularVelocity), {1.567784114, 4.747857724, -0.9051421674},
               1e-8);
@@ -177,8 +177,8 @@ TEST(TorqueFreeTop, CatalogueValues) {
     EXPECT_NEAR(findQuantity(quantities, "flip_time_2")->exact, 7.899082686, 1e-8);
     EXPECT_NEAR(findQuantity(quantities, "period")->exact, 10.53211025, 1e-7);
     const Scenario other = top(Mat3::diagonal(1, 2, 3), {3, 1, -2}, {}, 10);
-    expectQuat(*makeReference(other)->exact(0, 5).orientation,
-               {0.3375275118, 0.5678892417, -0.3075971611, -0.6848072535}, 1e-8);
+    expectSameRotation(*makeReference(other)->exact(0, 5).orientation,
+                       {0.3375275118, 0.5678892417, -0.3075971611, -0.6848072535}, 1e-8);
 }
 
 /// Every branch of the closed form against integration of Euler's equations with the quaternion.
@@ -212,7 +212,7 @@ TEST(TorqueFreeTop, AgreesWithIntegrationForAnyTensorAndStart) {
         const Vec3 momentum = rotate(s.bodies[0].pose.orientation, c.inertia * c.rates);
         for (const double t : {0.0, 0.37, 1.9, 4.4, 6.0}) {
             const auto e = reference->exact(0, t);
-            expectQuat(*e.orientation, integrated.at(t).orientation, 2e-12);
+            expectSameRotation(*e.orientation, integrated.at(t).orientation, 2e-12);
             expectVec(*e.angularVelocity, integrated.at(t).angularVelocity, 2e-11);
             // Constant angular momentum and energy, independent of both.
             const Vec3 w = rotateInverse(*e.orientation, *e.angularVelocity);

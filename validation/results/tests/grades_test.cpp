@@ -11,7 +11,7 @@
 namespace rigor::results {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Grades, EachLimitBelongsToItsGradeAndWhatIsAboveToTheNext) {
@@ -22,7 +22,7 @@ TEST(Grades, EachLimitBelongsToItsGradeAndWhatIsAboveToTheNext) {
         EXPECT_EQ(gradeOf(std::nextafter(gradeLimit(grade), 1.0)), next);
     }
     EXPECT_EQ(gradeOf(0.0), Grade::A);
-    EXPECT_EQ(gradeOf(kInf), Grade::E);
+    EXPECT_EQ(gradeOf(kInfinite), Grade::E);
     EXPECT_EQ(gradeOf(kNaN), Grade::E);
 }
 
@@ -37,7 +37,7 @@ TEST(Grades, TwiceTheIdealErrorIsWhereTheEnginesOwnPartIsTheLarger) {
     EXPECT_EQ(againstScheme(0.0201, 0.01), AgainstScheme::Farther);
     EXPECT_EQ(againstScheme(0.005, 0.01), AgainstScheme::Same);
     EXPECT_EQ(againstScheme(0.0049, 0.01), AgainstScheme::Nearer);
-    EXPECT_EQ(againstScheme(kInf, 0.01), AgainstScheme::Farther);
+    EXPECT_EQ(againstScheme(kInfinite, 0.01), AgainstScheme::Farther);
     EXPECT_EQ(againstScheme(kNaN, 0.01), AgainstScheme::Farther);
 }
 

@@ -20,7 +20,7 @@ namespace {
 using results::CaseRow;
 using results::Verdict;
 
-constexpr double kStep = 0.0078125;  // 1/128: sums of it are exact
+constexpr double kFaultStep = 0.0078125;  // 1/128: sums of it are exact
 
 std::string scene(const std::string& name, const std::string& rest) {
     return R"({"rigor": 1, "name": ")" + name + R"(", "title": ")" + name +
@@ -265,7 +265,7 @@ TEST_P(Faults, EachIsFoundByTheMetricMeantForIt) {
     Names names{"none"};
     for (const Fault& f : kFaults)
         if (f.scene == GetParam()) names.insert(f.name);
-    const auto run = runWith(*GetParam(), names, {kStep});
+    const auto run = runWith(*GetParam(), names, {kFaultStep});
     ASSERT_EQ(run.scenarios[0].referenceProblem, "");
     const CaseRow& honest = rowOf(run, "none");
     EXPECT_EQ(honest.verdict, Verdict::Pass) << honest.reason;

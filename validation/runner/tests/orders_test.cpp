@@ -26,7 +26,7 @@ using results::OrderDependence;
 using results::Outcome;
 using testing::HasSubstr;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 /// A thrown ball, a floor and a wall that it does not reach: three bodies in six orders.
 std::string threeBodies() {
@@ -155,9 +155,9 @@ MetricRow metric(const std::string& name, double value) {
 }
 
 TEST(AddOrders, ValuesThatAreNoneAreNotCounted) {
-    CaseRow row = graded(Grade::C, {metric("a", 2.0), metric("b", kNaN), metric("c", 1.0)});
+    CaseRow row = graded(Grade::C, {metric("a", 2.0), metric("b", kNotANumber), metric("c", 1.0)});
     addOrders(row, {{2, graded(Grade::D, {metric("a", 5.0), metric("b", 7.0)}), ""},
-                    {1, graded(Grade::B, {metric("a", kNaN), metric("b", 3.0)}), ""}});
+                    {1, graded(Grade::B, {metric("a", kNotANumber), metric("b", 3.0)}), ""}});
     EXPECT_EQ(std::tie(row.metrics[0].orderMin, row.metrics[0].orderMax),
               std::make_tuple(std::optional(2.0), std::optional(5.0)));
     EXPECT_EQ(row.metrics[0].orderCount, 2);

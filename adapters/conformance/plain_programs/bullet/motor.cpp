@@ -8,7 +8,7 @@
 namespace rigor::plain {
 namespace {
 
-constexpr double kStep = 1.0 / 60;
+constexpr double kMotorStep = 1.0 / 60;
 
 /// The relaxation factor is set to 0, as in the adapter: at 1, Bullet's own, what hits a limit bounces.
 TEST(PlainBullet, HingeMotor) {
@@ -18,12 +18,12 @@ TEST(PlainBullet, HingeMotor) {
     const btVector3 z(0, 0, 1);
     btHingeConstraint pivot(btTypedConstraint::getFixedBody(), rod, {0, 0, 0}, {-0.5, 0, 0}, z, z, true);
     pivot.setLimit(-0.5235987755982988, 0.1, 0.9, 0.3, 0.0);
-    pivot.enableAngularMotor(true, 1.5, 6.0 * kStep);
+    pivot.enableAngularMotor(true, 1.5, 6.0 * kMotorStep);
     demo.world->addConstraint(&pivot);
-    const Trajectory plain = demo.run(kStep, 120);
+    const Trajectory plain = demo.run(kMotorStep, 120);
     const Scenario scene = load("adapters/conformance/plain_programs/bullet/motor.json");
     EXPECT_GT(travel(plain, 0), 0.2);
-    EXPECT_TRUE(same(plain, adapterRun("bullet:preset=default", scene, kStep, 120), kSameBits));
+    EXPECT_TRUE(same(plain, adapterRun("bullet:preset=default", scene, kMotorStep, 120), kSameBits));
 }
 
 TEST(PlainBullet, SliderMotor) {
@@ -41,13 +41,13 @@ TEST(PlainBullet, SliderMotor) {
     shaft.setTargetLinMotorVelocity(1);
     shaft.setMaxLinMotorForce(50);
     demo.world->addConstraint(&shaft);
-    const Trajectory plain = demo.run(kStep, 150);
+    const Trajectory plain = demo.run(kMotorStep, 150);
     const Scenario scene =
         load("scenarios/library/3d/slider_motor.json", {"bodies.cabin.inertia=[0.125,0.125,0.125]"});
     EXPECT_GT(travel(plain, 0), 1.0);
     // The quarter turn from x to y is a sine and a cosine here, a half-way vector in the adapter.
-    EXPECT_TRUE(
-        same(plain, adapterRun("bullet:preset=default", scene, kStep, 150), {1e-12, 1e-12, 1e-12, 1e-12}));
+    EXPECT_TRUE(same(plain, adapterRun("bullet:preset=default", scene, kMotorStep, 150),
+                     {1e-12, 1e-12, 1e-12, 1e-12}));
 }
 
 }  // namespace

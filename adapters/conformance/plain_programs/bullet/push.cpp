@@ -10,7 +10,7 @@
 namespace rigor::plain {
 namespace {
 
-constexpr double kStep = 1.0 / 60, kForce = 10.46727, kTorque = 2.093454, kHeight = 0.5;
+constexpr double kPushStep = 1.0 / 60, kForce = 10.46727, kTorque = 2.093454, kHeight = 0.5;
 constexpr double kMoment = 2.0 / 3 * (0.04 + 0.25);
 
 /// Mean speed of the base over the second half of a second [m/s].
@@ -32,10 +32,11 @@ double creep(bool torqueAsVelocity, int directions) {
         if (i == 30) half = base();
         block.applyCentralForce(btVector3(kForce, 0, 0));
         if (torqueAsVelocity)
-            block.setAngularVelocity(block.getAngularVelocity() + btVector3(0, 0, kTorque / kMoment * kStep));
+            block.setAngularVelocity(block.getAngularVelocity() +
+                                     btVector3(0, 0, kTorque / kMoment * kPushStep));
         else
             block.applyTorque(btVector3(0, 0, kTorque));
-        demo.world->stepSimulation(kStep, 0);
+        demo.world->stepSimulation(kPushStep, 0);
     }
     return (base() - half) / 0.5;
 }
@@ -43,7 +44,7 @@ double creep(bool torqueAsVelocity, int directions) {
 TEST(PlainBullet, FrictionDoesNotSeeAnAppliedTorque) {
     for (const int directions : {1, 2}) {
         SCOPED_TRACE(directions);
-        const double expected = kTorque * kStep / kMoment * kHeight;
+        const double expected = kTorque * kPushStep / kMoment * kHeight;
         EXPECT_NEAR(std::abs(creep(false, directions)), expected, 1e-3 * expected);
         EXPECT_LT(std::abs(creep(true, directions)), 0.02 * expected);
     }

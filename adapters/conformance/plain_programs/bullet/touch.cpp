@@ -11,7 +11,7 @@
 namespace rigor::plain {
 namespace {
 
-constexpr double kStep = 1.0 / 60;
+constexpr double kTouchStep = 1.0 / 60;
 
 class Slide : public RigidBodyBase {
   public:
@@ -58,13 +58,13 @@ TEST(PlainBullet, ABlockThatTouchesTipsOrFallsForOneStep) {
         Trajectory plain{slide.states()};
         double deepest = 0.0;
         for (int i = 0; i < 90; ++i) {
-            slide.world->stepSimulation(kStep, 0);
+            slide.world->stepSimulation(kTouchStep, 0);
             plain.push_back(slide.states());
             if (i < 2) points.push_back(slide.points());
             deepest = std::max(deepest, slide.depth());
         }
         EXPECT_EQ(points, (floorFirst ? std::vector<int>{4, 2} : std::vector<int>{0, 4}));
-        const double oneStep = 9.81 * kStep * kStep;
+        const double oneStep = 9.81 * kTouchStep * kTouchStep;
         if (floorFirst)
             EXPECT_GT(deepest, 1.5 * oneStep);
         else
@@ -73,7 +73,7 @@ TEST(PlainBullet, ABlockThatTouchesTipsOrFallsForOneStep) {
         Scenario scene =
             load("scenarios/library/3d/slide_and_stop.json", {"bodies.block.inertia=[0.045,0.085,0.045]"});
         if (!floorFirst) std::swap(scene.bodies[0], scene.bodies[1]);
-        EXPECT_TRUE(same(plain, adapterRun("bullet:preset=default", scene, kStep, 90), kSameBits));
+        EXPECT_TRUE(same(plain, adapterRun("bullet:preset=default", scene, kTouchStep, 90), kSameBits));
     }
 }
 

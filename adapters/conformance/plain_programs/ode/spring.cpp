@@ -8,14 +8,14 @@
 namespace rigor::plain {
 namespace {
 
-constexpr double kStep = 1.0 / 60;
+constexpr double kSpringStep = 1.0 / 60;
 
 template <class Set>
 void spring(Set set, dJointID joint, double target, double k, double c) {
     set(joint, dParamHiStop, target);
     set(joint, dParamLoStop, target);
-    set(joint, dParamStopERP, kStep * k / (kStep * k + c));
-    set(joint, dParamStopCFM, 1 / (kStep * k + c));
+    set(joint, dParamStopERP, kSpringStep * k / (kSpringStep * k + c));
+    set(joint, dParamStopCFM, 1 / (kSpringStep * k + c));
 }
 
 TEST(PlainOde, SliderSpring) {
@@ -27,11 +27,11 @@ TEST(PlainOde, SliderSpring) {
     dJointAttach(rail, weight, nullptr);
     dJointSetSliderAxis(rail, 0, 1, 0);
     spring(dJointSetSliderParam, rail, 0, 300, 6);
-    const Trajectory plain = demo.run(kStep, 180);
+    const Trajectory plain = demo.run(kSpringStep, 180);
 
     const Scenario scene = load("scenarios/library/3d/slider_spring.json");
     EXPECT_GT(travel(plain, 0), 0.1);
-    EXPECT_TRUE(same(plain, adapterRun("ode:preset=default", scene, kStep, 180)));
+    EXPECT_TRUE(same(plain, adapterRun("ode:preset=default", scene, kSpringStep, 180)));
 }
 
 /// The adapter turns the body by an AMotor of its own instead of the piston's second motor: the same row with
@@ -48,12 +48,12 @@ TEST(PlainOde, PistonSpring) {
     spring(dJointSetPistonParam, piston, 0.4, 80, 2);
     dJointSetPistonParam(piston, dParamVel2, 3);
     dJointSetPistonParam(piston, dParamFMax2, 0.05);
-    const Trajectory plain = demo.run(kStep, 120);
+    const Trajectory plain = demo.run(kSpringStep, 120);
 
     const Scenario scene = load("scenarios/library/3d/six_dof_spring.json");
     EXPECT_GT(travel(plain, 0), 0.4);
     EXPECT_TRUE(
-        same(plain, adapterRun("ode:preset=default", scene, kStep, 120), {1e-12, 1e-12, 1e-12, 1e-12}));
+        same(plain, adapterRun("ode:preset=default", scene, kSpringStep, 120), {1e-12, 1e-12, 1e-12, 1e-12}));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace rigor::plain {
 namespace {
 
-constexpr double kStep = 1.0 / 60, kStop = 0.6981317007977318;
+constexpr double kStopStep = 1.0 / 60, kStop = 0.6981317007977318;
 
 double angleOf(dBodyID rod) {
     const dReal* q = dBodyGetQuaternion(rod);
@@ -35,7 +35,7 @@ Trajectory fall(bool stops, std::vector<double>& angles) {
     for (int i = 0; i < 120; ++i) {
         angles.push_back(angleOf(rod));
         dJointSetAMotorAngle(motor, 0, angles.back());
-        demo.step(kStep);
+        demo.step(kStopStep);
         trajectory.push_back(demo.states());
     }
     return trajectory;
@@ -47,7 +47,7 @@ TEST(PlainOde, StopOfACone) {
     const Trajectory plain = fall(true, angles), unstopped = fall(false, freely);
     const Scenario scene = load("scenarios/library/3d/cone_twist_stop.json");
     EXPECT_TRUE(
-        same(plain, adapterRun("ode:preset=default", scene, kStep, 120), {1e-12, 1e-12, 1e-11, 1e-11}));
+        same(plain, adapterRun("ode:preset=default", scene, kStopStep, 120), {1e-12, 1e-12, 1e-11, 1e-11}));
 
     std::size_t beyond = 0;
     while (angles[beyond] < kStop) ++beyond;

@@ -11,7 +11,7 @@
 namespace rigor::plain {
 namespace {
 
-constexpr double kStep = 1.0 / 60;
+constexpr double kTouchStep = 1.0 / 60;
 
 dGeomID levelField(int columns, int rows, double dx, double dz) {
     static std::vector<double> heights;
@@ -76,7 +76,7 @@ TEST(PlainOde, ABlockOnAHeightFieldFallsForOneStep) {
     demo.inSpace(levelField(41, 9, 0.31, 0.29));
     demo.addBody(nullptr, {0, 0, 0});
     addBlock(demo, {-1, 0.05, 0});
-    EXPECT_NEAR(deepest(demo.run(kStep, 90), 1), 9.81 * kStep * kStep, 1e-9);
+    EXPECT_NEAR(deepest(demo.run(kTouchStep, 90), 1), 9.81 * kTouchStep * kTouchStep, 1e-9);
 }
 
 /// The block of slide_and_stop as the first of the pair: no contact at the touch, one free step.
@@ -86,13 +86,13 @@ TEST(PlainOde, ABlockInsertedFirstFallsForOneStep) {
     addBlock(demo, {0, 0.05, 0});
     dGeomSetPosition(demo.inSpace(dCreateBox(nullptr, 40, 1, 40)), 0, -0.5, 0);
     demo.addBody(nullptr, {0, -0.5, 0});
-    const Trajectory plain = demo.run(kStep, 90);
-    EXPECT_NEAR(deepest(plain, 0), 9.81 * kStep * kStep, 1e-9);
+    const Trajectory plain = demo.run(kTouchStep, 90);
+    EXPECT_NEAR(deepest(plain, 0), 9.81 * kTouchStep * kTouchStep, 1e-9);
 
     Scenario scene =
         load("scenarios/library/3d/slide_and_stop.json", {"bodies.block.inertia=[0.045,0.085,0.045]"});
     std::swap(scene.bodies[0], scene.bodies[1]);
-    EXPECT_TRUE(same(plain, adapterRun("ode:preset=default", scene, kStep, 90)));
+    EXPECT_TRUE(same(plain, adapterRun("ode:preset=default", scene, kTouchStep, 90)));
 }
 
 }  // namespace

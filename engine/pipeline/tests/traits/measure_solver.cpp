@@ -12,7 +12,7 @@ namespace rigor::engine::test {
 namespace {
 
 using S = Space3d;
-constexpr double kStep = 1.0 / 120;
+constexpr double kSolverStep = 1.0 / 120;
 
 WorldDef<S> earthWith(const std::string& solver) {
     WorldDef<S> def = earth<S>();
@@ -22,7 +22,7 @@ WorldDef<S> earthWith(const std::string& solver) {
     return def;
 }
 
-void run(World<S>& world, int steps, double h = kStep) {
+void runSolver(World<S>& world, int steps, double h = kSolverStep) {
     for (int i = 0; i < steps; ++i) world.step(h);
 }
 
@@ -50,7 +50,7 @@ double contactSpring(const std::string& solver) {
     World<S> world(def);
     addGround<S>(world, 0);
     const BodyId ball = addBall<S>(world, 0, 0.5, 0.5, 1, 0);
-    run(world, 180, kSpringStep);
+    runSolver(world, 180, kSpringStep);
     return frequencyOf(0.5 - world.pose(ball).p[1]);
 }
 
@@ -65,7 +65,7 @@ double jointSpring(const std::string& solver, bool curved) {
     JointDef<S> joint;
     joint.bodyB = ball;
     world.addJoint(joint);
-    run(world, 180, kSpringStep);
+    runSolver(world, 180, kSpringStep);
     return frequencyOf(-world.pose(ball).p[1]);
 }
 
@@ -77,7 +77,7 @@ Eigen::Vector2d afterOverlap(const std::string& solver, const std::string& corre
     World<S> world(def);
     addGround<S>(world, 0);
     const BodyId ball = addBall<S>(world, 0, 0.49, 0.5, 1, 0);
-    run(world, 60);
+    runSolver(world, 60);
     return {world.pose(ball).p[1], world.velocity(ball)[1]};
 }
 
@@ -109,10 +109,10 @@ bool isDirect(const std::string& solver) {
     def.velocityTolerance = 0;
     World<S> world(def);
     const auto balls = addColumn(world, 8);
-    world.step(kStep);
+    world.step(kSolverStep);
     double fastest = 0;
     for (const BodyId ball : balls) fastest = std::max(fastest, std::abs(world.velocity(ball)[1]));
-    return fastest < 1e-4 * kGravity * kStep;
+    return fastest < 1e-4 * kGravity * kSolverStep;
 }
 
 int iterationsOf(WorldDef<S> def, double change, double residual) {
@@ -127,7 +127,7 @@ int iterationsOf(WorldDef<S> def, double change, double residual) {
     joint.anchorA = at<S>(10, 5);
     joint.anchorB = at<S>(-1, 0);
     world.addJoint(joint);
-    run(world, 2);
+    runSolver(world, 2);
     return world.lastStep().iterations;
 }
 
@@ -148,7 +148,7 @@ bool warmStarts(const std::string& solver) {
         def.velocityTolerance = 0;
         World<S> world(def);
         const auto balls = addColumn(world, 5);
-        run(world, 5);
+        runSolver(world, 5);
         std::vector<double> v;
         for (const BodyId ball : balls) v.push_back(world.velocity(ball)[1]);
         return v;
@@ -166,7 +166,7 @@ bool contactsInSingle(const std::string& solver) {
     const auto rubber = world.addMaterial(0, e);
     const BodyId a = addBall<S>(world, -0.6, 0, 0.5, m1, rubber, v1),
                  b = addBall<S>(world, 0.6, 0, 0.4, m2, rubber, v2);
-    run(world, 120);
+    runSolver(world, 120);
     const double mean = (m1 * v1 + m2 * v2) / (m1 + m2);
     const double errorA = world.velocity(a)[0] - (mean - e * (v1 - v2) * m2 / (m1 + m2));
     const double errorB = world.velocity(b)[0] - (mean + e * (v1 - v2) * m1 / (m1 + m2));

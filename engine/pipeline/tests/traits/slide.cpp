@@ -13,7 +13,7 @@ namespace {
 
 using S = Space3d;
 using Vec2 = Eigen::Vector2d;
-constexpr double kStep = 1.0 / 120, kMu = 0.2;
+constexpr double kSlideStep = 1.0 / 120, kMu = 0.2;
 
 World<S> onFloor(const std::string& solver, const std::string& friction, double mu) {
     WorldDef<S> def = earth<S>();
@@ -24,7 +24,7 @@ World<S> onFloor(const std::string& solver, const std::string& friction, double 
     return world;
 }
 
-void run(World<S>& world, int steps, double h = kStep) {
+void runSlide(World<S>& world, int steps, double h = kSlideStep) {
     for (int i = 0; i < steps; ++i) world.step(h);
 }
 
@@ -40,15 +40,15 @@ struct Braking {
 Braking brakingOf(const std::string& solver, const std::string& friction, double direction) {
     World<S> world = onFloor(solver, friction, kMu);
     const BodyId ball = addBall<S>(world, 0, 0.5, 0.5, 1, 1);
-    run(world, 120);
+    runSlide(world, 120);
     world.setVelocity(ball, S::Vec(4 * std::cos(direction), 0, 4 * std::sin(direction)), S::Vec::Zero());
-    run(world, 3);
+    runSlide(world, 3);
     const Vec2 before = level(world.velocity(ball));
     const int steps = 8;
-    run(world, steps);
+    runSlide(world, steps);
     const Vec2 change = level(world.velocity(ball)) - before;
     const double cross = change[0] * before[1] - change[1] * before[0];
-    return {change.norm() / (kMu * kGravity * steps * kStep),
+    return {change.norm() / (kMu * kGravity * steps * kSlideStep),
             std::atan2(std::abs(cross), -change.dot(before))};
 }
 
@@ -76,15 +76,15 @@ double errorWhereSlipTurns(const std::string& solver, const std::string& frictio
     def.pose.p = at<S>(0, radius);
     const BodyId ball = world.addBody(def);
     attach<S>(world, ball, Sphere<S>{radius}, 1);
-    run(world, 120);
+    runSlide(world, 120);
     const Vec2 slip(0.7, 0.1);
     world.setVelocity(ball, S::Vec(slip[0], 0, slip[1]), S::Vec::Zero());
-    run(world, 1);
+    runSlide(world, 1);
     const Vec2 found = level(world.velocity(ball)) - slip;
     const Vec2 K(1 + radius * radius / inertia[2], 1 + radius * radius / inertia[0]);
     Vec2 u = slip, sum = Vec2::Zero();
     for (int i = 0; i < substeps; ++i) {
-        const Vec2 f = coneImpulse(K, u, mu * kGravity * kStep / substeps);
+        const Vec2 f = coneImpulse(K, u, mu * kGravity * kSlideStep / substeps);
         u += K.cwiseProduct(f);
         sum += f;
     }
@@ -136,12 +136,12 @@ bool rubsInPatches(const std::string& solver) {
         def.pose.p = at<S>(0, 0.01);
         const BodyId plate = world.addBody(def);
         attach<S>(world, plate, makeHull<S>(corners), 1);
-        run(world, 480, h);
+        runSlide(world, 480, h);
         world.setVelocity(plate, S::Vec(std::cos(direction), 0, std::sin(direction)), S::Vec(0, 3, 0));
-        run(world, 3, h);
+        runSlide(world, 3, h);
         const Pose<S> X = world.pose(plate);
         const S::Vec v = world.velocity(plate), w = world.angularVelocity(plate);
-        run(world, 1, h);
+        runSlide(world, 1, h);
         S::Vec force = S::Vec::Zero();  // friction of all feet, as a fraction of mu m g
         for (const S::Vec& foot : feet) {
             const S::Vec slip = v + w.cross(rotate(X.q, foot));
