@@ -76,7 +76,7 @@ class UniformGrid final : public BroadPhase<S> {
     }
     Cell cellOf(const Vec& x) const {
         Cell cell;
-        for (int k = 0; k < S::dim; ++k) cell[static_cast<std::size_t>(k)] = cellOf(x[k]);
+        for (int k = 0; k < S::dim; ++k) cell[k] = cellOf(x[k]);
         return cell;
     }
     std::size_t bucketOf(const Cell& cell) const {

@@ -82,8 +82,8 @@ class Speculative final : public ContinuousCollision<S> {
         const Vec pA = a.body.p + impact.time * a.velocity.v, pB = b.body.p + impact.time * b.velocity.v;
         const Vec& n = contact.manifold.normal;
         for (int i = 0; i < contact.manifold.count; ++i) {
-            ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
-            auto& point = contact.points[static_cast<std::size_t>(i)];
+            ManifoldPoint<S>& where = contact.manifold.points[i];
+            auto& point = contact.points[i];
             const Vec at = Real(0.5) * (where.pointA + where.pointB);
             point.rA = at - pA;
             point.rB = at - pB;

@@ -39,7 +39,7 @@ void addAnchorRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, Jo
     const Vec C = (B.p - A.p) + (rB - rA);
     // r x e_i for the axes e_i.
     for (int i = 0; i < S::dim; ++i) out.add(C[i]).lin[i] = typename S::Real(1);
-    Row<S>* const row = &out.row[static_cast<std::size_t>(out.count - S::dim)];
+    Row<S>* const row = &out.row[out.count - S::dim];
     if constexpr (S::dim == 2) {
         row[0].angA = rA.y();
         row[1].angA = -rA.x();
@@ -129,7 +129,7 @@ void addTravelCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>&
 // aA . (wB - wA) while the axes are parallel.
 template <class S>
 void addTurnCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
-    const typename S::Real last = joint.lastCoordinate[static_cast<std::size_t>(out.axes)];
+    const typename S::Real last = joint.lastCoordinate[out.axes];
     if constexpr (S::dim == 2) {
         const typename S::Real angle = logMap(compose(B.q, inverse(compose(A.q, joint.relative))));
         Row<S>& row = out.coordinate(unwrapped(angle, last));

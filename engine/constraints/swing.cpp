@@ -63,7 +63,7 @@ void direct(const typename S::Vec& rate, Row<S>& row) {
 
 template <class S>
 void addTwistCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
-    const typename S::Real last = joint.lastCoordinate[static_cast<std::size_t>(out.axes)];
+    const typename S::Real last = joint.lastCoordinate[out.axes];
     const Swing<S> swing(joint, A, B);
     const typename S::Vec u = swing.swungBack(swing.by);
     Row<S>& row = out.coordinate(unwrapped(std::atan2(u.dot(swing.z), u.dot(swing.y)), last));

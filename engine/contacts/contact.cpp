@@ -11,9 +11,9 @@ void placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) {
     const std::uint32_t a = contact.bodyA, b = contact.bodyB;
     contact.placed = true;
     for (int i = 0; i < contact.manifold.count; ++i) {
-        const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
+        const ManifoldPoint<S>& where = contact.manifold.points[i];
         const typename S::Vec at = impulsePoint<S>(where, bodies.invMass[a] > 0, bodies.invMass[b] > 0);
-        typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
+        typename Contact<S>::Point& point = contact.points[i];
         point.rA = at - bodies.pose[a].p;
         point.rB = at - bodies.pose[b].p;
         point.separation = where.separation;

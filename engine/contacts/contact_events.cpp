@@ -46,7 +46,7 @@ void ContactEvents<S>::add(const BodyArrays<S>& bodies, std::span<const ShapeRec
     };
     for (const std::uint8_t* changed = next(touchChanged_.data()); changed != end;
          changed = next(changed + 1)) {
-        const Contact<S>& contact = contacts[static_cast<std::size_t>(changed - touchChanged_.data())];
+        const Contact<S>& contact = contacts[changed - touchChanged_.data()];
         for (; nextEnded != ended.end() && key(*nextEnded) < key(contact); ++nextEnded)
             append(EventKind::ContactEnds, *nextEnded);
         if (contact.touching)

@@ -234,7 +234,7 @@ void RowContacts<S>::advance(ContactList<S>& contacts, std::span<const Velocity<
         const typename S::Vec dA = h * A.v, dB = h * B.v;
         const typename S::Ang aA = h * A.w, aB = h * B.w;
         for (int i = 0; i < contact.manifold.count; ++i) {
-            typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
+            typename Contact<S>::Point& point = contact.points[i];
             const typename S::Vec moved = dB + cross(aB, point.rB) - dA - cross(aA, point.rA);
             point.separation += contact.manifold.normal.dot(moved);
         }

@@ -62,7 +62,7 @@ inline std::uint32_t crossingFeature(std::uint32_t edgeA, std::uint32_t edgeB) {
 template <class S>
 void addPoint(Manifold<S>& out, const typename S::Vec& pointA, const typename S::Vec& pointB,
               typename S::Real separation, std::uint32_t feature) {
-    ManifoldPoint<S>& p = out.points[static_cast<std::size_t>(out.count++)];
+    ManifoldPoint<S>& p = out.points[out.count++];
     p.pointA = pointA;
     p.pointB = pointB;
     p.separation = separation;
@@ -80,7 +80,7 @@ template <class S>
 void flip(Manifold<S>& out) {
     out.normal = -out.normal;
     for (int i = 0; i < out.count; ++i) {
-        ManifoldPoint<S>& p = out.points[static_cast<std::size_t>(i)];
+        ManifoldPoint<S>& p = out.points[i];
         std::swap(p.pointA, p.pointB);
         p.feature = flippedFeature(p.feature);
     }
@@ -116,7 +116,7 @@ template <class S>
 void toWorldFrame(Manifold<S>& out, const Pose<S>& Xa) {
     out.normal = rotate(Xa.q, out.normal);
     for (int i = 0; i < out.count; ++i) {
-        ManifoldPoint<S>& p = out.points[static_cast<std::size_t>(i)];
+        ManifoldPoint<S>& p = out.points[i];
         p.pointA = toWorld<S>(Xa, p.pointA);
         p.pointB = toWorld<S>(Xa, p.pointB);
     }

@@ -25,7 +25,7 @@ constexpr int kIdleSteps = 8;
 template <class S>
 bool holds(const Simplex<S>& simplex, const typename S::Vec& w) {
     for (int i = 0; i < simplex.count; ++i)
-        if (simplex.points[static_cast<std::size_t>(i)].w == w) return true;
+        if (simplex.points[i].w == w) return true;
     return false;
 }
 
@@ -59,7 +59,7 @@ GjkResult<S> gjk(const Minkowski<S>& D, const typename S::Vec& start) {
             least = known ? R(0) : gap;
         }
         if (known || gap <= R(4) * std::numeric_limits<R>::epsilon() * length) break;
-        r.simplex.points[static_cast<std::size_t>(r.simplex.count++)] = p;
+        r.simplex.points[r.simplex.count++] = p;
         const V v = reduceSimplex<S>(r.simplex, V::Zero());
         best.overlap = r.simplex.count == S::dim + 1;
         if (best.overlap) break;

@@ -34,13 +34,13 @@ void verticesAgainstPlane(int count, Vertex vertex, typename S::Real radius, con
             lowest = s;
             deepest = i;
         }
-        if (s <= speculative && found < kMost) near[static_cast<std::size_t>(found++)] = i;
+        if (s <= speculative && found < kMost) near[found++] = i;
     }
     if (found == 0) return;
     if (found == kMost)
         near[0] = deepest;  // a face of many vertices: 64 of them are enough, with the deepest
     out.normal = -n;
-    const auto index = [&](int k) { return near[static_cast<std::size_t>(k)]; };
+    const auto index = [&](int k) { return near[k]; };
     const auto emit = [&](int k) {
         const R s = separation(index(k));
         const V onShape = toWorld<S>(Xa, vertex(index(k))) - radius * n;
@@ -78,9 +78,7 @@ template <class S>
 void collidePair(const Hull<S>& a, const Pose<S>& Xa, const HalfSpace<S>& b, const Pose<S>& Xb,
                  typename S::Real speculative, Manifold<S>& out) {
     const auto& vertices = a.data->vertices;
-    const auto vertex = [&](int i) -> const typename S::Vec& {
-        return vertices[static_cast<std::size_t>(i)];
-    };
+    const auto vertex = [&](int i) -> const typename S::Vec& { return vertices[i]; };
     verticesAgainstPlane<S>(static_cast<int>(vertices.size()), vertex, 0, Xa, b, Xb, speculative, out);
 }
 

@@ -17,10 +17,8 @@ template <class S>
 void manifoldDeepest(const ManifoldPair<S>&, ManifoldCache<S>&, Manifold<S>& manifold) {
     int deepest = 0;
     for (int i = 1; i < manifold.count; ++i)
-        if (manifold.points[static_cast<std::size_t>(i)].separation <
-            manifold.points[static_cast<std::size_t>(deepest)].separation)
-            deepest = i;
-    manifold.points[0] = manifold.points[static_cast<std::size_t>(deepest)];
+        if (manifold.points[i].separation < manifold.points[deepest].separation) deepest = i;
+    manifold.points[0] = manifold.points[deepest];
     manifold.count = 1;
 }
 

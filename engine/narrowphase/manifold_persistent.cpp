@@ -32,7 +32,7 @@ template <class S>
 std::uint32_t freeName(const Candidates<S>& points, int count) {
     std::uint32_t name = 0;
     for (int i = 0; i < count; ++i)
-        if (points[static_cast<std::size_t>(i)].feature == name) {
+        if (points[i].feature == name) {
             ++name;
             i = -1;
         }
@@ -53,14 +53,13 @@ void manifoldPersistent(const ManifoldPair<S>& pair, ManifoldCache<S>& cache, Ma
     const R drift = kDrift<R> * pair.size;
     ManifoldPoint<S> fresh = manifold.points[0];
     for (int i = 1; i < manifold.count; ++i)
-        if (manifold.points[static_cast<std::size_t>(i)].separation < fresh.separation)
-            fresh = manifold.points[static_cast<std::size_t>(i)];
+        if (manifold.points[i].separation < fresh.separation) fresh = manifold.points[i];
 
     Candidates<S> points;
     int count = 0, nearest = -1;
     R least = drift * drift;
     for (int i = 0; i < cache.count; ++i) {
-        const auto& kept = cache.points[static_cast<std::size_t>(i)];
+        const auto& kept = cache.points[i];
         const V pA = toWorld<S>(pair.Xa, kept.onA), pB = toWorld<S>(pair.Xb, kept.onB), gap = pB - pA;
         const R separation = gap.dot(n);
         if (separation > pair.speculativeDistance) continue;
@@ -70,22 +69,20 @@ void manifoldPersistent(const ManifoldPair<S>& pair, ManifoldCache<S>& cache, Ma
             least = squared;
             nearest = count;
         }
-        points[static_cast<std::size_t>(count++)] = {pA, pB, separation, kept.name};
+        points[count++] = {pA, pB, separation, kept.name};
     }
-    fresh.feature =
-        nearest < 0 ? freeName<S>(points, count) : points[static_cast<std::size_t>(nearest)].feature;
-    points[static_cast<std::size_t>(nearest < 0 ? count++ : nearest)] = fresh;
+    fresh.feature = nearest < 0 ? freeName<S>(points, count) : points[nearest].feature;
+    points[nearest < 0 ? count++ : nearest] = fresh;
 
     manifold.count = 0;
     cache.count = 0;
     reducePoints<S>(
-        count, n, [&](int i) { return points[static_cast<std::size_t>(i)].separation; },
-        [&](int i) { return points[static_cast<std::size_t>(i)].pointB; },
+        count, n, [&](int i) { return points[i].separation; }, [&](int i) { return points[i].pointB; },
         [&](int i) {
-            const ManifoldPoint<S>& p = points[static_cast<std::size_t>(i)];
-            cache.points[static_cast<std::size_t>(cache.count++)] = {
-                toLocal<S>(pair.Xa, p.pointA), toLocal<S>(pair.Xb, p.pointB), p.feature};
-            manifold.points[static_cast<std::size_t>(manifold.count++)] = p;
+            const ManifoldPoint<S>& p = points[i];
+            cache.points[cache.count++] = {toLocal<S>(pair.Xa, p.pointA), toLocal<S>(pair.Xb, p.pointB),
+                                           p.feature};
+            manifold.points[manifold.count++] = p;
         });
 }
 

@@ -82,14 +82,12 @@ struct Simplex {
 
     typename S::Vec onA() const {
         typename S::Vec x = S::Vec::Zero();
-        for (int i = 0; i < count; ++i)
-            x += weights[static_cast<std::size_t>(i)] * points[static_cast<std::size_t>(i)].a;
+        for (int i = 0; i < count; ++i) x += weights[i] * points[i].a;
         return x;
     }
     typename S::Vec onB() const {
         typename S::Vec x = S::Vec::Zero();
-        for (int i = 0; i < count; ++i)
-            x += weights[static_cast<std::size_t>(i)] * points[static_cast<std::size_t>(i)].b;
+        for (int i = 0; i < count; ++i) x += weights[i] * points[i].b;
         return x;
     }
 };
@@ -143,7 +141,7 @@ void addDeepest(const CoreContact<S>& contact, typename S::Real rA, typename S::
     using R = typename S::Real;
     const R separation = contact.distance - rA - rB;
     for (int i = 0; i < out.count; ++i)
-        if (out.points[static_cast<std::size_t>(i)].separation <= separation + tolerance) return;
+        if (out.points[i].separation <= separation + tolerance) return;
     if (out.count == S::maxManifoldPoints) --out.count;
     addPoint<S>(out, contact.onA + rA * contact.normal, contact.onB - rB * contact.normal, separation,
                 crossingFeature(0, 1));

@@ -29,7 +29,7 @@ using Points = std::array<typename S::Vec, S::dim + 1>;
 template <class S>
 Nearest<S> onVertex(const Points<S>& s, int i) {
     Nearest<S> r;
-    r.v = s[static_cast<std::size_t>(i)];
+    r.v = s[i];
     r.weights[0] = 1;
     r.index[0] = i;
     r.count = 1;
@@ -40,7 +40,7 @@ template <class S>
 Nearest<S> onSegment(const Points<S>& s, int i, int j) {
     using R = typename S::Real;
     using V = typename S::Vec;
-    const V &p = s[static_cast<std::size_t>(i)], &q = s[static_cast<std::size_t>(j)];
+    const V &p = s[i], &q = s[j];
     const V e = q - p;
     const R ee = e.squaredNorm(), pe = -p.dot(e), qe = q.dot(e);
     if (!(pe > 0)) return onVertex<S>(s, i);
@@ -93,9 +93,7 @@ template <class R>
 Nearest<Space<R, 2>> onTriangle(const Points<Space<R, 2>>& s, int i, int j, int k) {
     using S = Space<R, 2>;
     const std::array<int, 3> index{i, j, k};
-    const auto at = [&](std::size_t m) -> const Vec2<R>& {
-        return s[static_cast<std::size_t>(index[m % 3])];
-    };
+    const auto at = [&](std::size_t m) -> const Vec2<R>& { return s[index[m % 3]]; };
     const R area = cross(Vec2<R>(at(1) - at(0)), Vec2<R>(at(2) - at(0)));
     const R size = std::max({at(0).norm(), at(1).norm(), at(2).norm()});
     const bool flat = !(std::abs(area) > kRounding<R> * size * size);
@@ -113,9 +111,7 @@ template <class R>
 Nearest<Space<R, 3>> onTriangle(const Points<Space<R, 3>>& s, int i, int j, int k) {
     using S = Space<R, 3>;
     const std::array<int, 3> index{i, j, k};
-    const auto at = [&](std::size_t m) -> const Vec3<R>& {
-        return s[static_cast<std::size_t>(index[m % 3])];
-    };
+    const auto at = [&](std::size_t m) -> const Vec3<R>& { return s[index[m % 3]]; };
     // The two shorter edges lose least in the cross product.
     std::size_t apex = 0;
     R longest = -1;
@@ -158,9 +154,7 @@ Nearest<Space<R, 3>> onTetrahedron(const Points<Space<R, 3>>& s) {
     std::array<R, 4> part{};
     bool inside = !flat;
     for (std::size_t m = 0; m < 4 && !flat; ++m) {
-        const auto at = [&](std::size_t i) -> const Vec3<R>& {
-            return s[static_cast<std::size_t>(faces[m][i])];
-        };
+        const auto at = [&](std::size_t i) -> const Vec3<R>& { return s[faces[m][i]]; };
         part[m] = at(0).dot((at(1) - at(0)).cross(at(2) - at(0))) / volume;
         inside = inside && part[m] >= 0;
     }
@@ -176,8 +170,7 @@ Nearest<Space<R, 3>> onTetrahedron(const Points<Space<R, 3>>& s) {
 template <class S>
 typename S::Vec reduceSimplex(Simplex<S>& simplex, const typename S::Vec& target) {
     Points<S> s;
-    for (int i = 0; i < simplex.count; ++i)
-        s[static_cast<std::size_t>(i)] = simplex.points[static_cast<std::size_t>(i)].w - target;
+    for (int i = 0; i < simplex.count; ++i) s[i] = simplex.points[i].w - target;
     Nearest<S> r;
     if (simplex.count == 1) r = onVertex<S>(s, 0);
     if (simplex.count == 2) r = onSegment<S>(s, 0, 1);
@@ -187,9 +180,7 @@ typename S::Vec reduceSimplex(Simplex<S>& simplex, const typename S::Vec& target
     const Simplex<S> old = simplex;
     simplex.count = r.count;
     simplex.weights = r.weights;
-    for (int i = 0; i < r.count; ++i)
-        simplex.points[static_cast<std::size_t>(i)] =
-            old.points[static_cast<std::size_t>(r.index[static_cast<std::size_t>(i)])];
+    for (int i = 0; i < r.count; ++i) simplex.points[i] = old.points[r.index[i]];
     return r.v;
 }
 

@@ -95,12 +95,11 @@ bool faceIsShortest(const Piece& piece, const typename S::Vec& n, typename S::Re
     if (out.count == 0) return false;
     typename S::Vec foot = S::Vec::Zero();
     R size = 0, used = 0;
-    for (int i = 0; i < out.count; ++i)
-        size = std::max(size, out.points[static_cast<std::size_t>(i)].pointB.cwiseAbs().maxCoeff());
+    for (int i = 0; i < out.count; ++i) size = std::max(size, out.points[i].pointB.cwiseAbs().maxCoeff());
     // The lowest points, and those hardly higher: a flat contact's middle.
     const R bound = s + R(0.1) * std::abs(s) + kRounding<R> * size;
     for (int i = 0; i < out.count; ++i) {
-        const ManifoldPoint<S>& p = out.points[static_cast<std::size_t>(i)];
+        const ManifoldPoint<S>& p = out.points[i];
         if (p.separation <= bound) {
             foot += p.pointA;
             used += 1;
@@ -116,7 +115,7 @@ bool isSurfaceNormal(const Data& data, std::uint32_t piece, const typename S::Ve
     using V = typename S::Vec;
     const auto corners = data.corners(piece);
     constexpr int kCorners = S::dim;
-    const auto at = [&](int i) { return V(data.point(corners[static_cast<std::size_t>(i % kCorners)])); };
+    const auto at = [&](int i) { return V(data.point(corners[i % kCorners])); };
     int top = 0;
     for (int i = 1; i < kCorners; ++i)
         if (at(i).dot(n) > at(top).dot(n)) top = i;
@@ -141,7 +140,7 @@ bool isSurfaceNormal(const Data& data, std::uint32_t piece, const typename S::Ve
         return behind(data.across(piece, side));
     }
     bool all = true;
-    data.ring(corners[static_cast<std::size_t>(top)], [&](std::uint32_t w) { all = all && behind(w); });
+    data.ring(corners[top], [&](std::uint32_t w) { all = all && behind(w); });
     return all;
 }
 
@@ -168,8 +167,7 @@ void addLowPoints(const Data& data, const Piece& piece, const Placed<S>& placed,
         if (depth <= 0 || insideBy<R>(piece, n, V(x + depth * m)) < 0) continue;
         bool known = false;
         for (int i = 0; i < along.count; ++i)
-            known =
-                known || (along.points[static_cast<std::size_t>(i)].pointB - x).norm() < R(0.1) * std::abs(s);
+            known = known || (along.points[i].pointB - x).norm() < R(0.1) * std::abs(s);
         if (!known && beyond(x)) addPoint<S>(along, x + depth * m, x, -depth, crossingFeature(k, 0));
     }
 }
@@ -254,8 +252,7 @@ void collideDeepestPiece(CollideFunction<S> collide, const Shape<S>& surface, co
             Manifold<S> m;
             collideWith<S>(collide, data, piece, false, Xsurface, convex, Xconvex, speculative, m);
             R least = std::numeric_limits<R>::max();
-            for (int i = 0; i < m.count; ++i)
-                least = std::min(least, m.points[static_cast<std::size_t>(i)].separation);
+            for (int i = 0; i < m.count; ++i) least = std::min(least, m.points[i].separation);
             if (m.count == 0 || least > deepest || (least == deepest && piece > first)) return;
             deepest = least;
             first = piece;

@@ -94,9 +94,7 @@ struct MeshData {
         const auto& t = triangles[i];
         return {{vertices[t[0]], vertices[t[1]], vertices[t[2]]}};
     }
-    std::uint32_t across(std::uint32_t i, int side) const {
-        return beyond[i][static_cast<std::size_t>(side)];
-    }
+    std::uint32_t across(std::uint32_t i, int side) const { return beyond[i][side]; }
     template <class Visit>
     void ring(std::uint32_t v, Visit visit) const {
         for (std::uint32_t k = ringStart[v]; k < ringStart[v + 1]; ++k) visit(rings[k]);
@@ -202,7 +200,7 @@ struct HeightFieldData {
     }
     template <class Visit>
     void visitCell(int i, int k, Real from, Visit visit) const {
-        const auto at = [&](int a, int b) { return heights[static_cast<std::size_t>(b * columns + a)]; };
+        const auto at = [&](int a, int b) { return heights[b * columns + a]; };
         if (std::max({at(i, k), at(i + 1, k), at(i, k + 1), at(i + 1, k + 1)}) < from) return;
         const auto cell = static_cast<std::uint32_t>(k * (columns - 1) + i);
         visit(2 * cell);

@@ -175,7 +175,7 @@ bool Plane::holds(Vec3 p) const {
 }
 
 Plane planeOf(const Scenario& scenario, int floor, Vec3 from) {
-    const Body& body = scenario.bodies[static_cast<std::size_t>(floor)];
+    const Body& body = scenario.bodies[floor];
     const std::string subject = bodyTitle(scenario, floor);
     require(body.type != BodyType::Dynamic, subject + " is not fixed");
     require(body.shapes.size() == 1, subject + " must be a single half-space, box, cylinder or segment");
@@ -201,7 +201,7 @@ Plane planeOf(const Scenario& scenario, int floor, Vec3 from) {
 }
 
 Support supportOf(const Scenario& scenario, int index, const Plane& plane) {
-    const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
+    const Body& body = scenario.bodies[index];
     const double tolerance = 1e-6 * sizeOf(body);
     struct Low {
         double height;

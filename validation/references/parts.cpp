@@ -232,7 +232,7 @@ struct Influence {
 }  // namespace
 
 void requireUndisturbed(const Scenario& scenario, int index, Allowed allowed) {
-    const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
+    const Body& body = scenario.bodies[index];
     const std::string subject = bodyTitle(scenario, index);
     if (!allowed.joints)
         for (const auto& joint : scenario.joints)
@@ -264,7 +264,7 @@ void requireContact(const Scenario& scenario, int a, int b) {
 }
 
 Ball ballOf(const Scenario& scenario, int index) {
-    const Body& body = scenario.bodies[static_cast<std::size_t>(index)];
+    const Body& body = scenario.bodies[index];
     const std::string subject = bodyTitle(scenario, index);
     require(body.shapes.size() == 1 && std::holds_alternative<scenario::Sphere>(body.shapes[0].geometry),
             subject + " is not a single sphere");

@@ -30,8 +30,7 @@ Heights::Heights(const Case& what, double half, std::mt19937& random) {
     }
     heights_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
     for (int k = 0; k < rows_; ++k)
-        for (int i = 0; i < columns_; ++i)
-            heights_[static_cast<std::size_t>(k * columns_ + i)] = form(what, i, k, random);
+        for (int i = 0; i < columns_; ++i) heights_[k * columns_ + i] = form(what, i, k, random);
 }
 
 double Heights::form(const Case& what, int i, int k, std::mt19937& random) const {

@@ -35,7 +35,7 @@ class Heights {
   private:
     double at(double x, double z, double& slopeX, double& slopeZ) const;
     double form(const Case& what, int i, int k, std::mt19937& random) const;
-    double vertex(int i, int k) const { return heights_[static_cast<std::size_t>(k * columns_ + i)]; }
+    double vertex(int i, int k) const { return heights_[k * columns_ + i]; }
     int columns_ = 0, rows_ = 1;
     double dx_ = 1, dz_ = 1;
     std::vector<double> heights_;

@@ -77,7 +77,7 @@ class Rain {
         const auto start = std::chrono::steady_clock::now();
         for (int step = 1; step <= steps; ++step) {
             world_.step(R(1) / 60);
-            if (follow >= 0) printState(step, bodies_[static_cast<std::size_t>(follow)]);
+            if (follow >= 0) printState(step, bodies_[follow]);
             for (Body& body : bodies_) look(step, body, out);
         }
         for (const Body& body : bodies_) {

@@ -77,7 +77,7 @@ TYPED_TEST(BroadPhases, EqualTheDoubleLoopWhileBoxesMoveJumpAndBecomeUnbounded) 
                 boxes[i].min += d;
                 boxes[i].max += d;
             }
-            boxes[static_cast<std::size_t>(round)] = randomBox<S>(random, 8);
+            boxes[round] = randomBox<S>(random, 8);
             if (round == 60) boxes[3] = boxes.back();  // becomes unbounded
             if (round == 70) boxes[3] = randomBox<S>(random, 8);
             if (round == 80) {

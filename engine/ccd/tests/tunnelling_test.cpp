@@ -247,9 +247,7 @@ TYPED_TEST(Tunnelling, AChainOfBallsPassesTheBlowOnWithinTheStep) {
         balls.push_back(addBall<S>(world, 0.25 * i, 0, 0.1, 1, material, i == 0 ? 300 : 0));
     world.step(typename S::Real(kStep));
     EXPECT_EQ(world.lastStep().impacts.size(), 4u);
-    for (int i = 0; i < 5; ++i)
-        EXPECT_NEAR(speedX<S>(world, balls[static_cast<std::size_t>(i)]), i == 4 ? 300 : 0,
-                    tol<S>(1e-6, 1e-2));
+    for (int i = 0; i < 5; ++i) EXPECT_NEAR(speedX<S>(world, balls[i]), i == 4 ? 300 : 0, tol<S>(1e-6, 1e-2));
     // The way of the momentum is 300 m/s times the step, less four gaps' worth of sphere.
     EXPECT_NEAR(placeX<S>(world, balls[4]), 300 * kStep + 4 * 0.2, 1e-3);
 }

@@ -29,8 +29,7 @@ class JointCases : public RandomValues<S> {
         // Normal to the suspension axis, as of a car: the travel then needs no turn.
         def.spinAxisB = rotateInverse(B.q, normalTo(axis));
         def.length = Real(1.5);
-        for (int k = 0; k < findJoint<S>(type).axes; ++k)
-            def.axes[static_cast<std::size_t>(k)].mode = AxisMode::Free;
+        for (int k = 0; k < findJoint<S>(type).axes; ++k) def.axes[k].mode = AxisMode::Free;
         B.p = A.p + rotate(A.q, def.anchorA) - rotate(B.q, def.anchorB);
         return def;
     }

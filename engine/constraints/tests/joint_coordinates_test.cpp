@@ -62,7 +62,7 @@ Eigen::MatrixXd jacobian(const JointRows<S>& rows) {
             } else {
                 body.w[number - 3] = 1;
             }
-            J(i, k) = static_cast<double>(rowVelocity<S>(rows.row[static_cast<std::size_t>(i)], a, b));
+            J(i, k) = static_cast<double>(rowVelocity<S>(rows.row[i], a, b));
         }
     return J;
 }
@@ -83,8 +83,7 @@ TYPED_TEST(JointCoordinates, RowsTakeTheDegreesOfFreedomOfTheirJoint) {
             ASSERT_EQ(rows.equalities, expected);
             ASSERT_EQ(rows.count, expected);
             ASSERT_EQ(rows.axes, entry.axes);
-            for (int i = 0; i < expected; ++i)
-                ASSERT_NEAR(rows.error[static_cast<std::size_t>(i)], 0, this->kTolerance);
+            for (int i = 0; i < expected; ++i) ASSERT_NEAR(rows.error[i], 0, this->kTolerance);
             if (expected == 0) continue;
             const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian<S>(rows));
             ASSERT_GT(svd.singularValues()(expected - 1), 1e-2) << "rows depend on each other";
@@ -108,12 +107,12 @@ TYPED_TEST(JointCoordinates, LockedCoordinatesAreEqualityRows) {
             const JointRows<S> rows = this->rows(locked, this->A, this->B);
             EXPECT_EQ(rows.equalities, free + 1);
             EXPECT_EQ(rows.count, free + 1);
-            const Row<S>& row = rows.row[static_cast<std::size_t>(free)];
+            const Row<S>& row = rows.row[free];
             EXPECT_EQ(row.lin, rows.along[axis].lin);
             EXPECT_EQ(row.angB, rows.along[axis].angB);
             const auto expected =
                 entry.type == JointType::Distance ? rows.value[axis] - this->def.length : rows.value[axis];
-            EXPECT_EQ(rows.error[static_cast<std::size_t>(free)], expected);
+            EXPECT_EQ(rows.error[free], expected);
         }
     }
 }
@@ -129,8 +128,7 @@ TYPED_TEST(JointCoordinates, HingesMeasureTheAngleOverManyTurns) {
             const JointRows<S> rows = this->rows(this->joint, this->A, turned);
             ASSERT_NEAR(rows.value[0], sign * angle, 10 * this->kTolerance);
             for (int i = 0; i < rows.equalities; ++i)
-                ASSERT_NEAR(rows.error[static_cast<std::size_t>(i)], 0, this->kTolerance)
-                    << "turning is free";
+                ASSERT_NEAR(rows.error[i], 0, this->kTolerance) << "turning is free";
             this->joint.lastCoordinate = rows.value;
         }
     }
@@ -147,18 +145,14 @@ TYPED_TEST(JointCoordinates, SlidersAndWheelsMeasureTheTravel) {
             away.p += static_cast<R>(travel) * this->axis();
             const JointRows<S> rows = this->rows(this->joint, this->A, away);
             EXPECT_NEAR(rows.value[0], travel, 4 * this->kTolerance);
-            for (int k = 1; k < rows.axes; ++k)
-                EXPECT_NEAR(rows.value[static_cast<std::size_t>(k)], 0, 4 * this->kTolerance);
-            for (int i = 0; i < rows.equalities; ++i)
-                EXPECT_NEAR(rows.error[static_cast<std::size_t>(i)], 0, 4 * this->kTolerance);
+            for (int k = 1; k < rows.axes; ++k) EXPECT_NEAR(rows.value[k], 0, 4 * this->kTolerance);
+            for (int i = 0; i < rows.equalities; ++i) EXPECT_NEAR(rows.error[i], 0, 4 * this->kTolerance);
             // Off the line the rows of a slider or a wheel measure by how much.
             away.p += static_cast<R>(0.25) * this->normalTo(this->axis());
             const JointRows<S> off = this->rows(this->joint, this->A, away);
             double squared = 0;
             for (int i = 0; i < S::dim - 1; ++i)
-                squared += std::pow(type == JointType::SixDof ? off.value[static_cast<std::size_t>(i + 1)]
-                                                              : off.error[static_cast<std::size_t>(i)],
-                                    2);
+                squared += std::pow(type == JointType::SixDof ? off.value[i + 1] : off.error[i], 2);
             EXPECT_NEAR(std::sqrt(squared), 0.25, 4 * this->kTolerance);
         }
     }
@@ -176,8 +170,7 @@ TYPED_TEST(JointCoordinates, WheelsMeasureTheSpinWhereverTheyTravel) {
         const JointRows<S> rows = this->rows(this->joint, this->A, rolled);
         ASSERT_NEAR(rows.value[0], travel, 4 * this->kTolerance);
         ASSERT_NEAR(rows.value[1], angle, 10 * this->kTolerance);
-        for (int i = 0; i < rows.equalities; ++i)
-            ASSERT_NEAR(rows.error[static_cast<std::size_t>(i)], 0, 4 * this->kTolerance);
+        for (int i = 0; i < rows.equalities; ++i) ASSERT_NEAR(rows.error[i], 0, 4 * this->kTolerance);
         this->joint.lastCoordinate = rows.value;
     }
 }
@@ -264,7 +257,7 @@ TYPED_TEST(JointCoordinates, OneSidedLimitsHaveOneRow) {
     this->def.axes[0].upper = R(2);
     const JointRows<S> rows = this->rows(this->made(this->def, this->A, this->B), this->A, this->B);
     ASSERT_EQ(rows.count, rows.equalities + 1);
-    EXPECT_NEAR(rows.error[static_cast<std::size_t>(rows.equalities)], 2, this->kTolerance);
+    EXPECT_NEAR(rows.error[rows.equalities], 2, this->kTolerance);
     this->def.axes[0].lower = this->def.axes[0].upper;  // equal limits are a lock
     const JointRows<S> locked = this->rows(this->made(this->def, this->A, this->B), this->A, this->B);
     EXPECT_EQ(locked.count, locked.equalities);
@@ -305,8 +298,7 @@ TYPED_TEST(JointCoordinates, AnchorsAreTakenFromTheCentersOfMass) {
     const Pose<S> atA{toWorld<S>(this->A, centerA), this->A.q}, atB{toWorld<S>(this->B, centerB), this->B.q};
     const Joint<S> fixed = makeJoint<S>(this->def, atA, centerA, atB, centerB);
     const JointRows<S> rows = this->rows(fixed, atA, atB);
-    for (int i = 0; i < rows.count; ++i)
-        EXPECT_NEAR(rows.error[static_cast<std::size_t>(i)], 0, 4 * this->kTolerance);
+    for (int i = 0; i < rows.count; ++i) EXPECT_NEAR(rows.error[i], 0, 4 * this->kTolerance);
 }
 
 }  // namespace

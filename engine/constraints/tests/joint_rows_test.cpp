@@ -49,7 +49,7 @@ class JointRowsOf : public testing::Test {
         def.spinAxisB = direction();
         def.length = 1.5;
         for (int k = 0; k < findJoint<S>(type).axes; ++k) {
-            JointAxis<double>& control = def.axes[static_cast<std::size_t>(k)];
+            JointAxis<double>& control = def.axes[k];
             control.mode = AxisMode::Limited;
             const bool cone = (type == JointType::ConeTwist && k == 1) || type == JointType::Ball;
             if (!cone) control.lower = -0.7;
@@ -142,7 +142,7 @@ TYPED_TEST(JointRowsOf, RowsPushBothBodiesOppositely) {
         for (int i = 0; i < rows.count; ++i) {
             if (i < rows.equalities)
                 continue;  // if the anchors differ, equality rows are exact at C = 0 only
-            const Row<S>& row = rows.row[static_cast<std::size_t>(i)];
+            const Row<S>& row = rows.row[i];
             EXPECT_NEAR(rowVelocity<S>(row, a, b), 0, 1e-12) << "row " << i;
         }
     }

@@ -132,7 +132,7 @@ Eigen::MatrixXd denseK(const std::vector<Row<S>>& rows, const Block<S>& block,
         const double invMass = static_cast<double>(body == 0 ? block.invMassA : block.invMassB);
         M.block(body * each, body * each, S::dim, S::dim) =
             invMass * Eigen::MatrixXd::Identity(S::dim, S::dim);
-        const auto& inertia = invInertia[static_cast<std::size_t>(body)];
+        const auto& inertia = invInertia[body];
         if constexpr (S::dim == 2)
             M(body * each + 2, body * each + 2) = static_cast<double>(inertia);
         else
@@ -170,8 +170,7 @@ TYPED_TEST(RowsOf, BlocksAreInvertedAsTheDenseMatrixIs) {
             }
             const Eigen::MatrixXd K = denseK<S>(rows, this->block, this->invInertia);
             for (int k = 0; k < n; ++k)
-                ASSERT_NEAR(rowK<S>(rows[static_cast<std::size_t>(k)], this->block), K(k, k),
-                            64 * this->kEpsilon);
+                ASSERT_NEAR(rowK<S>(rows[k], this->block), K(k, k), 64 * this->kEpsilon);
             const Eigen::JacobiSVD<Eigen::MatrixXd> svd(K);
             const double condition = svd.singularValues()(0) / svd.singularValues()(n - 1);
             if (condition > 1e3) continue;  // random rows may be nearly dependent

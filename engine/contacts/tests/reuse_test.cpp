@@ -94,7 +94,7 @@ template <class S>
 double deepest(const Contact<S>& contact) {
     double least = 1;
     for (int i = 0; i < contact.manifold.count; ++i)
-        least = std::min(least, double(contact.manifold.points[static_cast<std::size_t>(i)].separation));
+        least = std::min(least, double(contact.manifold.points[i].separation));
     return least;
 }
 
@@ -124,10 +124,10 @@ TYPED_TEST(Reuse, CachedPointsAreThoseOfANewQuery) {
             // Corners: each is the same one, where it is now.
             ASSERT_EQ(a.manifold.count, b.manifold.count);
             for (int i = 0; i < a.manifold.count; ++i) {
-                const auto& p = a.manifold.points[static_cast<std::size_t>(i)];
+                const auto& p = a.manifold.points[i];
                 double nearest = 1;
                 for (int j = 0; j < b.manifold.count; ++j) {
-                    const auto& q = b.manifold.points[static_cast<std::size_t>(j)];
+                    const auto& q = b.manifold.points[j];
                     const double distance = double((p.pointB - q.pointB).norm());
                     if (distance < nearest) nearest = distance;
                 }

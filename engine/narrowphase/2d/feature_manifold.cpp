@@ -36,14 +36,13 @@ void loadFeature(const Shape<Space<R, 2>>& shape, const Vec2<R>& local, Place pl
     if (const auto* box = std::get_if<Box<S>>(&shape)) {
         const R x = box->halfExtents.x(), y = box->halfExtents.y();
         const std::array<Vec2<R>, 4> corners{Vec2<R>(-x, -y), Vec2<R>(x, -y), Vec2<R>(x, y), Vec2<R>(-x, y)};
-        edge(4, [&](int i) -> const Vec2<R>& { return corners[static_cast<std::size_t>(i)]; });
-        for (std::size_t k = 0; k < 2; ++k) f.at[k] = place(corners[static_cast<std::size_t>(f.index[k])]);
+        edge(4, [&](int i) -> const Vec2<R>& { return corners[i]; });
+        for (std::size_t k = 0; k < 2; ++k) f.at[k] = place(corners[f.index[k]]);
         f.count = 2;
     } else if (const auto* hull = std::get_if<Hull<S>>(&shape)) {
         const auto& v = hull->data->vertices;
-        edge(static_cast<int>(v.size()),
-             [&](int i) -> const Vec2<R>& { return v[static_cast<std::size_t>(i)]; });
-        for (std::size_t k = 0; k < 2; ++k) f.at[k] = place(v[static_cast<std::size_t>(f.index[k])]);
+        edge(static_cast<int>(v.size()), [&](int i) -> const Vec2<R>& { return v[i]; });
+        for (std::size_t k = 0; k < 2; ++k) f.at[k] = place(v[f.index[k]]);
         f.count = 2;
     } else if (const auto* capsule = std::get_if<Capsule<S>>(&shape)) {
         const Vec2<R> half = capsule->halfLength * Vec2<R>::UnitY();

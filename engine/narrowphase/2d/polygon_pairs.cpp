@@ -165,7 +165,7 @@ void emitPoint(const Reference<R>& c, const Vec2<R>& n, const Vec2<R>& onInc, R 
 template <class R>
 void restoreDeepest(const Reference<R>& c, int edge, R separation, R tolerance, Manifold<Space<R, 2>>& out) {
     for (int i = 0; i < out.count; ++i) {
-        const R s = out.points[static_cast<std::size_t>(i)].separation;
+        const R s = out.points[i].separation;
         if (s + c.ref.radius + c.inc.radius <= separation + R(4) * tolerance) return;
     }
     const Vec2<R> n = c.ref.normals[edge], v0 = c.ref.vertices[edge];
@@ -380,9 +380,9 @@ void collideAlong(const Segment<Space<R, 2>>& piece, bool front, const Shape<Spa
     // A corner beside the segment is not over it.
     int kept = 0;
     for (int i = 0; i < out.count; ++i) {
-        const ManifoldPoint<S>& p = out.points[static_cast<std::size_t>(i)];
+        const ManifoldPoint<S>& p = out.points[i];
         const R slack = kRounding<R> * length, t = along.dot(p.pointB - piece.a);
-        if (t >= -slack && t <= length + slack) out.points[static_cast<std::size_t>(kept++)] = p;
+        if (t >= -slack && t <= length + slack) out.points[kept++] = p;
     }
     out.count = kept;
 }

@@ -24,7 +24,7 @@ namespace {
 constexpr int kRefLine = 4;
 
 int loopVertex(int face, int i) {
-    return kBoxLoops[static_cast<std::size_t>(4 * face + (i & 3))];
+    return kBoxLoops[4 * face + (i & 3)];
 }
 std::uint32_t loopEdge(int face, int i) {
     return edgeName(loopVertex(face, i), loopVertex(face, i + 1));
@@ -147,8 +147,8 @@ R clipFaces(const FacePair<R>& m, const Pose<Space<R, 3>>& ref, R speculative, M
     std::array<int, kFlatMost> near;
     int found = 0;
     for (int i = 0; i < polygon.count; ++i) {
-        near[static_cast<std::size_t>(found)] = i;
-        found += polygon.h[static_cast<std::size_t>(i)] <= speculative;
+        near[found] = i;
+        found += polygon.h[i] <= speculative;
     }
     R least = std::numeric_limits<R>::max();
     const auto emit = [&](const FlatVertex<R>& x) {
@@ -187,7 +187,7 @@ Vec3<R> boxVertex(const Vec3<R>& half, int i) {
 
 template <class R>
 int betterBoxFace(int edge, const Vec3<R>& d, R& facing) {
-    const HullEdge& e = kBoxEdges[static_cast<std::size_t>(edge)];
+    const HullEdge& e = kBoxEdges[edge];
     const auto dot = [&](int face) { return face % 2 ? d[face / 2] : -d[face / 2]; };
     const int face = dot(e.left) >= dot(e.right) ? e.left : e.right;
     facing = dot(face);
@@ -208,8 +208,8 @@ struct Boxes {
     }
     /// The closest points of the two edges of the axis.
     void edgePoint() const {
-        const HullEdge& ea = kBoxEdges[static_cast<std::size_t>(axis.featureA)];
-        const HullEdge& eb = kBoxEdges[static_cast<std::size_t>(axis.featureB)];
+        const HullEdge& ea = kBoxEdges[axis.featureA];
+        const HullEdge& eb = kBoxEdges[axis.featureB];
         const Vec3<R> p = boxVertex(axes.halfA, ea.v0), d = boxVertex(axes.halfA, ea.v1) - p;
         const Vec3<R> q = axes.X.point(boxVertex(axes.halfB, eb.v0)),
                       e = axes.X.point(boxVertex(axes.halfB, eb.v1)) - q;

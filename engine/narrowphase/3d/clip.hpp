@@ -34,8 +34,8 @@ void loadFace(const Polytope<R>& p, int face, Place place, FaceLoop<R>& loop) {
     loop.count = std::min(f.count, kFaceVertices);
     for (int k = 0; k < loop.count; ++k) {
         const int i = f.count <= kFaceVertices ? k : k * f.count / kFaceVertices;
-        loop.at[static_cast<std::size_t>(k)] = place(p.loopVertex(f, i));
-        loop.index[static_cast<std::size_t>(k)] = p.loops[f.first + i];
+        loop.at[k] = place(p.loopVertex(f, i));
+        loop.index[k] = p.loops[f.first + i];
     }
 }
 
@@ -50,7 +50,7 @@ struct ClipPolygon {
     std::array<ClipVertex<R>, 2 * kFaceVertices> v;
     int count = 0;
     void add(const ClipVertex<R>& c) {
-        if (count < 2 * kFaceVertices) v[static_cast<std::size_t>(count++)] = c;
+        if (count < 2 * kFaceVertices) v[count++] = c;
     }
 };
 
@@ -59,8 +59,8 @@ template <class R>
 void clip(const ClipPolygon<R>& from, const Vec3<R>& m, const Vec3<R>& p, int line, ClipPolygon<R>& to) {
     to.count = 0;
     for (int i = 0; i < from.count; ++i) {
-        ClipVertex<R> a = from.v[static_cast<std::size_t>(i)];
-        ClipVertex<R> b = from.v[static_cast<std::size_t>((i + 1) % from.count)];
+        ClipVertex<R> a = from.v[i];
+        ClipVertex<R> b = from.v[(i + 1) % from.count];
         a.side = m.dot(a.x - p);
         b.side = m.dot(b.x - p);
         if (a.side <= 0) {
@@ -81,12 +81,12 @@ void clip(const ClipPolygon<R>& from, const Vec3<R>& m, const Vec3<R>& p, int li
 template <class R>
 std::uint32_t featureOf(const ClipVertex<R>& c, const FaceLoop<R>& ref, const FaceLoop<R>& inc, bool refIsA) {
     const bool inRef = c.in >= kRefSide, outRef = c.out >= kRefSide;
-    if (!inRef && !outRef) return vertexFeature(!refIsA, inc.index[static_cast<std::size_t>(c.out)]);
+    if (!inRef && !outRef) return vertexFeature(!refIsA, inc.index[c.out]);
     if (inRef && outRef) {
         // Two sides of the prism meet at the vertex between them: the end of one, the start of the other.
         const int a = c.in - kRefSide, b = c.out - kRefSide;
         const int vertex = (a + 1) % ref.count == b ? b : a;
-        return vertexFeature(refIsA, ref.index[static_cast<std::size_t>(vertex)]);
+        return vertexFeature(refIsA, ref.index[vertex]);
     }
     const std::uint32_t edgeRef = ref.edge((inRef ? c.in : c.out) - kRefSide);
     const std::uint32_t edgeInc = inc.edge(inRef ? c.out : c.in);
@@ -99,11 +99,10 @@ template <class R>
 const ClipPolygon<R>& clipToPrism(const FaceLoop<R>& ref, const FaceLoop<R>& inc, const Vec3<R>& outward,
                                   ClipPolygon<R> (&buffers)[2]) {
     int now = 0;
-    for (int i = 0; i < inc.count; ++i)
-        buffers[0].add({inc.at[static_cast<std::size_t>(i)], R(0), (i + inc.count - 1) % inc.count, i});
+    for (int i = 0; i < inc.count; ++i) buffers[0].add({inc.at[i], R(0), (i + inc.count - 1) % inc.count, i});
     for (int i = 0; i < ref.count && buffers[now].count > 0; ++i) {
-        const Vec3<R>& p = ref.at[static_cast<std::size_t>(i)];
-        const Vec3<R>& q = ref.at[static_cast<std::size_t>((i + 1) % ref.count)];
+        const Vec3<R>& p = ref.at[i];
+        const Vec3<R>& q = ref.at[(i + 1) % ref.count];
         clip<R>(buffers[now], Vec3<R>((q - p).cross(outward)), p, kRefSide + i, buffers[1 - now]);
         now = 1 - now;
     }

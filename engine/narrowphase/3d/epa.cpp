@@ -72,8 +72,8 @@ class ExpandingPolytope {
                 best = i;
         return best;
     }
-    const Face<R>& face(int i) const { return faces_[static_cast<std::size_t>(i)]; }
-    const DifferencePoint<S>& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
+    const Face<R>& face(int i) const { return faces_[i]; }
+    const DifferencePoint<S>& point(int i) const { return points_[i]; }
     int count() const { return count_; }
     int used() const { return used_; }
 
@@ -91,14 +91,14 @@ class ExpandingPolytope {
         findHorizon(seed, p.w);
         const int n = horizonCount_;
         if (n < 3 || n == kMaxHorizon || !ordered()) return false;
-        for (int i = 0; i < seenCount_; ++i) at(seen_[static_cast<std::size_t>(i)]).alive = false;
-        points_[static_cast<std::size_t>(count_)] = p;
+        for (int i = 0; i < seenCount_; ++i) at(seen_[i]).alive = false;
+        points_[count_] = p;
         int first = -1, last = -1;
         for (int i = 0; i < n; ++i) {
-            const Link outer = horizon_[static_cast<std::size_t>(i)];
+            const Link outer = horizon_[i];
             const Face<R>& beyond = face(outer.face);
-            const int to = beyond.v[static_cast<std::size_t>(outer.edge)];
-            const int from = beyond.v[static_cast<std::size_t>((outer.edge + 1) % 3)];
+            const int to = beyond.v[outer.edge];
+            const int from = beyond.v[(outer.edge + 1) % 3];
             const int added = add(from, to, count_);
             if (added < 0) return false;
             if (face(added).sliver) at(added).normal = face(outer.face).normal;
@@ -113,10 +113,10 @@ class ExpandingPolytope {
     }
 
   private:
-    Face<R>& at(int i) { return faces_[static_cast<std::size_t>(i)]; }
+    Face<R>& at(int i) { return faces_[i]; }
     void link(Link a, Link b) {
-        at(a.face).next[static_cast<std::size_t>(a.edge)] = b;
-        at(b.face).next[static_cast<std::size_t>(b.edge)] = a;
+        at(a.face).next[a.edge] = b;
+        at(b.face).next[b.edge] = a;
     }
 
     int add(int a, int b, int c) {
@@ -150,39 +150,39 @@ class ExpandingPolytope {
     void findHorizon(int seed, const Vec3<R>& x) {
         mark_.fill(Mark::Unknown);
         seen_[0] = seed;
-        mark_[static_cast<std::size_t>(seed)] = Mark::Seen;
+        mark_[seed] = Mark::Seen;
         seenCount_ = 1;
         horizonCount_ = 0;
         for (int k = 0; k < seenCount_; ++k)
-            for (const Link& l : face(seen_[static_cast<std::size_t>(k)]).next) {
-                Mark& mark = mark_[static_cast<std::size_t>(l.face)];
+            for (const Link& l : face(seen_[k]).next) {
+                Mark& mark = mark_[l.face];
                 if (mark != Mark::Unknown) continue;
                 const Face<R>& g = face(l.face);
                 const R offset = g.sliver ? g.normal.dot(point(g.v[0]).w) : g.offset;
                 mark = g.normal.dot(x) - offset >= -tolerance_ ? Mark::Seen : Mark::Beyond;
-                if (mark == Mark::Seen) seen_[static_cast<std::size_t>(seenCount_++)] = l.face;
+                if (mark == Mark::Seen) seen_[seenCount_++] = l.face;
             }
         for (int k = 0; k < seenCount_; ++k)
-            for (const Link& l : face(seen_[static_cast<std::size_t>(k)]).next)
-                if (mark_[static_cast<std::size_t>(l.face)] == Mark::Beyond && horizonCount_ < kMaxHorizon)
-                    horizon_[static_cast<std::size_t>(horizonCount_++)] = l;
+            for (const Link& l : face(seen_[k]).next)
+                if (mark_[l.face] == Mark::Beyond && horizonCount_ < kMaxHorizon)
+                    horizon_[horizonCount_++] = l;
     }
 
     /// Sorts the horizon into one loop; false when it is none.
     bool ordered() {
         const auto start = [&](int i) {
-            const Link l = horizon_[static_cast<std::size_t>(i)];
-            return face(l.face).v[static_cast<std::size_t>((l.edge + 1) % 3)];
+            const Link l = horizon_[i];
+            return face(l.face).v[(l.edge + 1) % 3];
         };
         const auto end = [&](int i) {
-            const Link l = horizon_[static_cast<std::size_t>(i)];
-            return face(l.face).v[static_cast<std::size_t>(l.edge)];
+            const Link l = horizon_[i];
+            return face(l.face).v[l.edge];
         };
         for (int i = 0; i + 1 < horizonCount_; ++i) {
             int j = i + 1;
             while (j < horizonCount_ && start(j) != end(i)) ++j;
             if (j == horizonCount_) return false;
-            std::swap(horizon_[static_cast<std::size_t>(i + 1)], horizon_[static_cast<std::size_t>(j)]);
+            std::swap(horizon_[i + 1], horizon_[j]);
         }
         return end(horizonCount_ - 1) == start(0);
     }
@@ -251,9 +251,8 @@ void refineNormal(const Minkowski<Space<R, 3>>& D, const ExpandingPolytope<R>& p
     std::array<int, kMaxVertices> on;
     int n = 0;
     for (int i = 0; i < polytope.count(); ++i)
-        if (best.normal.dot(polytope.point(i).w) >= best.depth - R(8) * tolerance)
-            on[static_cast<std::size_t>(n++)] = i;
-    const auto w = [&](int i) -> const Vec3<R>& { return polytope.point(on[static_cast<std::size_t>(i)]).w; };
+        if (best.normal.dot(polytope.point(i).w) >= best.depth - R(8) * tolerance) on[n++] = i;
+    const auto w = [&](int i) -> const Vec3<R>& { return polytope.point(on[i]).w; };
     if (n < 4) return;
     int p = 0, q = 0, r = 0;
     R widest = 0;

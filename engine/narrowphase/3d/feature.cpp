@@ -79,8 +79,8 @@ void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, SupportF
                                                 0.38268343236508977173};
     const auto cosine = [](int k) {  // cosine of k pi / 8
         const int quarter = (k / 4) % 4, rest = k % 4;
-        const double c = kCos[static_cast<std::size_t>(rest)];
-        const double s = rest == 0 ? 0.0 : kCos[static_cast<std::size_t>(4 - rest)];
+        const double c = kCos[rest];
+        const double s = rest == 0 ? 0.0 : kCos[4 - rest];
         return R(quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s);
     };
     const R across = std::hypot(d.x(), d.z());
@@ -96,8 +96,7 @@ void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, SupportF
         out.add(x, firstName + turn % 16);
     }
     if (radius * across > reach + std::max(kRimNoise<R>, kRounding<R>) * radius)
-        out.at[static_cast<std::size_t>(nearest)] =
-            Vec3<R>(radius * d.x() / across, y, radius * d.z() / across);
+        out.at[nearest] = Vec3<R>(radius * d.x() / across, y, radius * d.z() / across);
     out.normal = {0, outward, 0};
 }
 
@@ -137,7 +136,7 @@ void featureOf(const Triangle<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& ou
     if (const R c = n.dot(d); std::abs(c) > kFeatureFlat<R>) {
         for (int i = 0; i < 3; ++i) {
             const int k = c > 0 ? i : 2 - i;
-            out.add(s.v[static_cast<std::size_t>(k)], k);
+            out.add(s.v[k], k);
         }
         out.normal = c > 0 ? n : Vec3<R>(-n);
         return;

@@ -20,8 +20,8 @@ struct SupportFeature {
     Vec3<R> normal = Vec3<R>::Zero();  ///< outward unit normal of a face
 
     void add(const Vec3<R>& x, int name) {
-        at[static_cast<std::size_t>(count)] = x;
-        index[static_cast<std::size_t>(count++)] = name;
+        at[count] = x;
+        index[count++] = name;
     }
 };
 

@@ -97,21 +97,19 @@ void faceAgainstFeature(const Clip<R>& c, Manifold<Space<R, 3>>& out) {
     std::array<std::uint32_t, 2 * kFaceVertices> names;
     int found = 0;
     for (int i = 0; i < polygon.count; ++i) {
-        const ClipVertex<R>& v = polygon.v[static_cast<std::size_t>(i)];
+        const ClipVertex<R>& v = polygon.v[i];
         if (height(v.x) - c.rRef - c.rInc > c.speculative) continue;
         const std::uint32_t name = featureOf(v, c.ref.loop, c.inc.loop, c.refIsA);
         // A clipped segment runs there and back: each of its ends once.
         if (std::find(names.begin(), names.begin() + found, name) != names.begin() + found) continue;
-        names[static_cast<std::size_t>(found)] = name;
-        near[static_cast<std::size_t>(found++)] = i;
+        names[found] = name;
+        near[found++] = i;
     }
-    const auto at = [&](int k) -> const Vec3<R>& {
-        return polygon.v[static_cast<std::size_t>(near[static_cast<std::size_t>(k)])].x;
-    };
+    const auto at = [&](int k) -> const Vec3<R>& { return polygon.v[near[k]].x; };
     reducePoints<Space<R, 3>>(
         found, c.outward, smallerSide(c.ref.loop, c.inc.loop), out.memory,
-        [&](int k) { return height(at(k)); }, at, [&](int k) { return names[static_cast<std::size_t>(k)]; },
-        [&](int k) { addClipped(c, at(k), height(at(k)), names[static_cast<std::size_t>(k)], out); });
+        [&](int k) { return height(at(k)); }, at, [&](int k) { return names[k]; },
+        [&](int k) { addClipped(c, at(k), height(at(k)), names[k], out); });
 }
 
 /// The interval that two nearly parallel segments have in common, measured along the first.

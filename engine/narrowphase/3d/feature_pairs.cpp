@@ -54,7 +54,7 @@ void featuresAlong(const FeaturePair<R>& m, SupportFeature<R>& fa, SupportFeatur
     supportingFeature<R>(m.a, m.normal, fa);
     supportingFeature<R>(m.b, rotateInverse<R>(m.X.q, Vec3<R>(-m.normal)), fb);
     for (int i = 0; i < fb.count; ++i) {
-        Vec3<R>& x = fb.at[static_cast<std::size_t>(i)];
+        Vec3<R>& x = fb.at[i];
         x = toWorld<S3<R>>(m.X, x);
     }
     fb.normal = rotate(m.X.q, fb.normal);
@@ -92,9 +92,9 @@ struct FeaturePolygon {
     std::array<FeatureVertex<R>, 2 * SupportFeature<R>::kMost> v;
     int count = 0;
     void add(const FeatureVertex<R>& c) {
-        if (count < 2 * SupportFeature<R>::kMost) v[static_cast<std::size_t>(count++)] = c;
+        if (count < 2 * SupportFeature<R>::kMost) v[count++] = c;
     }
-    const FeatureVertex<R>& operator[](int i) const { return v[static_cast<std::size_t>(i)]; }
+    const FeatureVertex<R>& operator[](int i) const { return v[i]; }
 };
 
 /// Keeps what is below the plane m . (x - p) = 0. An open polygon (a segment) is not closed again.
@@ -125,10 +125,10 @@ std::uint32_t clipFeature(const FeatureVertex<R>& c, const SupportFeature<R>& re
         return edgeName(f.index[k], f.index[(k + 1) % static_cast<std::size_t>(f.count)]);
     };
     const bool inRef = c.in >= kRefSide, outRef = c.out >= kRefSide;
-    if (!inRef && !outRef) return vertexFeature(!refIsA, inc.index[static_cast<std::size_t>(c.out)]);
+    if (!inRef && !outRef) return vertexFeature(!refIsA, inc.index[c.out]);
     if (inRef && outRef) {
         const int a = c.in - kRefSide, b = c.out - kRefSide;
-        return vertexFeature(refIsA, ref.index[static_cast<std::size_t>((a + 1) % ref.count == b ? b : a)]);
+        return vertexFeature(refIsA, ref.index[(a + 1) % ref.count == b ? b : a]);
     }
     const std::uint32_t onRef = edge(ref, (inRef ? c.in : c.out) - kRefSide);
     const std::uint32_t onInc = edge(inc, inRef ? c.out : c.in);
@@ -165,11 +165,10 @@ void clipFeatures(const FeaturePair<R>& m, const SupportFeature<R>& ref, const S
     int now = 0;
     const bool closed = inc.count > 2;
     for (int i = 0; i < inc.count; ++i)
-        buffers[0].add({inc.at[static_cast<std::size_t>(i)], closed ? (i + inc.count - 1) % inc.count : 0,
-                        closed || i == 0 ? i : 1});
+        buffers[0].add({inc.at[i], closed ? (i + inc.count - 1) % inc.count : 0, closed || i == 0 ? i : 1});
     for (int i = 0; i < ref.count && buffers[now].count > 0; ++i) {
-        const Vec3<R>& p = ref.at[static_cast<std::size_t>(i)];
-        const Vec3<R>& q = ref.at[static_cast<std::size_t>((i + 1) % ref.count)];
+        const Vec3<R>& p = ref.at[i];
+        const Vec3<R>& q = ref.at[(i + 1) % ref.count];
         clip<R>(buffers[now], closed, (q - p).cross(outward), p, kRefSide + i, buffers[1 - now]);
         now = 1 - now;
     }
@@ -181,12 +180,10 @@ void clipFeatures(const FeaturePair<R>& m, const SupportFeature<R>& ref, const S
     R lowest = std::numeric_limits<R>::max();
     for (int i = 0; i < polygon.count; ++i)
         if (const R h = height(polygon[i].x); h <= m.speculative) {
-            near[static_cast<std::size_t>(found++)] = i;
+            near[found++] = i;
             lowest = std::min(lowest, h);
         }
-    const auto at = [&](int k) -> const FeatureVertex<R>& {
-        return polygon[near[static_cast<std::size_t>(k)]];
-    };
+    const auto at = [&](int k) -> const FeatureVertex<R>& { return polygon[near[k]]; };
     const R noise = selectionNoise(m, ref, inc);
     reducePoints<S3<R>>(
         found, outward, smallerSide(ref, inc), out.memory,
@@ -249,7 +246,7 @@ void keepWayOut(const Shape<S3<R>>& a, const Shape<S3<R>>& b, const Pose<S3<R>>&
 template <class R>
 void deepen(const FeaturePair<R>& m, R least, Manifold<S3<R>>& out) {
     for (int i = 0; i < out.count; ++i) {
-        auto& p = out.points[static_cast<std::size_t>(i)];
+        auto& p = out.points[i];
         if (p.separation != least || !(m.separation < least)) continue;
         const Vec3<R> half = R(0.5) * (least - m.separation) * m.normal;
         p.pointA += half;
@@ -263,8 +260,7 @@ template <class R>
 void keepDeepest(const FeaturePair<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
                  Manifold<S3<R>>& out) {
     R least = std::numeric_limits<R>::max();
-    for (int i = 0; i < out.count; ++i)
-        least = std::min(least, out.points[static_cast<std::size_t>(i)].separation);
+    for (int i = 0; i < out.count; ++i) least = std::min(least, out.points[i].separation);
     const R noise = fa.count > 2 && fb.count > 1   ? selectionNoise(m, fa, fb)
                     : fb.count > 2 && fa.count > 1 ? selectionNoise(m, fb, fa)
                                                    : m.tolerance;

@@ -96,7 +96,7 @@ void reduceFlat(const FlatPolygon<R>& polygon, const std::array<int, kFlatMost>&
                 R size, R extent, const ManifoldMemory<Space<R, 3>>& memory, Name name, Emit emit) {
     constexpr int kMost = Space<R, 3>::maxManifoldPoints;
     if (count <= kMost) {
-        for (int i = 0; i < count; ++i) emit(polygon[corners[static_cast<std::size_t>(i)]]);
+        for (int i = 0; i < count; ++i) emit(polygon[corners[i]]);
         return;
     }
     std::array<R, kFlatMost> score, u, v;
@@ -111,7 +111,7 @@ void reduceFlat(const FlatPolygon<R>& polygon, const std::array<int, kFlatMost>&
     const auto best = [&](R share, R tolerance, R rounding, R& top) {
         top = score[0];
         for (int i = 1; i < count; ++i) {
-            const R s = score[static_cast<std::size_t>(i)];
+            const R s = score[i];
             top = s > top ? s : top;
         }
         const R enough = (R(1) - share) * top - tolerance;

@@ -53,7 +53,7 @@ Polytope<R> polytopeOf(const Box<Space<R, 3>>& box, BoxStorage<R>& store) {
     for (unsigned i = 0; i < 8; ++i)
         store.vertices[i] = {i & 1 ? h.x() : -h.x(), i & 2 ? h.y() : -h.y(), i & 4 ? h.z() : -h.z()};
     for (int i = 0; i < 6; ++i) {
-        HullFace<R>& f = store.faces[static_cast<std::size_t>(i)];
+        HullFace<R>& f = store.faces[i];
         f.normal = (i % 2 ? R(1) : R(-1)) * Vec3<R>::Unit(i / 2);
         f.offset = h[i / 2];
         f.first = 4 * i;

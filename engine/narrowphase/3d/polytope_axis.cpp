@@ -92,7 +92,7 @@ struct FaceSearch {
 
     /// Lowers the bounds by one witness; the face of the highest.
     int lower(const Vec3<R>& witness, std::array<R, kBounded>& bound) {
-        std::array<R, kBounded>& own = height[static_cast<std::size_t>(std::min(witnesses, kWitnesses - 1))];
+        std::array<R, kBounded>& own = height[std::min(witnesses, kWitnesses - 1)];
         witnesses = std::min(witnesses + 1, kWitnesses);
         int highest = 0;
         R most = -std::numeric_limits<R>::max();
@@ -116,8 +116,8 @@ struct FaceSearch {
         for (std::size_t i = 0; i < faces; ++i) bits[i] = 0;
         for (int w = 0; w < witnesses; ++w)
             for (std::size_t i = 0; i < faces; ++i)
-                bits[i] = static_cast<std::uint8_t>(
-                    bits[i] | static_cast<unsigned>(height[static_cast<std::size_t>(w)][i] <= level) << w);
+                bits[i] =
+                    static_cast<std::uint8_t>(bits[i] | static_cast<unsigned>(height[w][i] <= level) << w);
     }
 };
 
@@ -126,8 +126,7 @@ template <class R>
 struct EdgeFilter {
     std::array<std::uint8_t, kBounded> bits;
     bool operator()(const HullEdge& e) const {
-        return e.left >= kBounded || e.right >= kBounded ||
-               (bits[static_cast<std::size_t>(e.left)] & bits[static_cast<std::size_t>(e.right)]) == 0;
+        return e.left >= kBounded || e.right >= kBounded || (bits[e.left] & bits[e.right]) == 0;
     }
 };
 
@@ -186,7 +185,7 @@ PolytopeAxis<R> bestEdges(const Polytope<R>& a, const Polytope<R>& b, const Rela
     for (int j = 0; j < b.edgeCount;) {
         int count = 0;
         for (; j < b.edgeCount && count < kBounded; ++j)
-            if (onB(b.edges[j])) ofB[static_cast<std::size_t>(count++)] = j;
+            if (onB(b.edges[j])) ofB[count++] = j;
         if (count == 0) continue;
         for (int i = 0; i < a.edgeCount; ++i) {
             const HullEdge& e = a.edges[i];
@@ -194,7 +193,7 @@ PolytopeAxis<R> bestEdges(const Polytope<R>& a, const Polytope<R>& b, const Rela
             const Vec3<R> d = toB * (a.vertices[e.v1] - a.vertices[e.v0]);
             const EdgeOfA<R> ea{toB * (a.vertices[e.v0] - X.translation), d, toB * a.faces[e.left].normal,
                                 toB * a.faces[e.right].normal, d.squaredNorm()};
-            for (int k = 0; k < count; ++k) tryEdges(a, b, X, ea, i, ofB[static_cast<std::size_t>(k)], best);
+            for (int k = 0; k < count; ++k) tryEdges(a, b, X, ea, i, ofB[k], best);
         }
     }
     best.normal = X.rotation * best.normal;

@@ -27,11 +27,8 @@ void clipFaces(const FaceLoop<R>& ref, const HullFace<R>& refPlane, const FaceLo
     std::array<int, 2 * kFaceVertices> near;
     int found = 0;
     for (int i = 0; i < polygon.count; ++i)
-        if (height(polygon.v[static_cast<std::size_t>(i)].x) <= speculative)
-            near[static_cast<std::size_t>(found++)] = i;
-    const auto vertex = [&](int k) -> const ClipVertex<R>& {
-        return polygon.v[static_cast<std::size_t>(near[static_cast<std::size_t>(k)])];
-    };
+        if (height(polygon.v[i].x) <= speculative) near[found++] = i;
+    const auto vertex = [&](int k) -> const ClipVertex<R>& { return polygon.v[near[k]]; };
     const auto emit = [&](int k) {
         const ClipVertex<R>& c = vertex(k);
         const R h = height(c.x);
@@ -134,8 +131,7 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
     // The deepest point of overlapping polytopes is on both faces; if rounding clipped it away it is put
     // back. Along an axis that is not the best it can be beside them.
     R least = std::numeric_limits<R>::max();
-    for (int i = 0; i < out.count; ++i)
-        least = std::min(least, out.points[static_cast<std::size_t>(i)].separation);
+    for (int i = 0; i < out.count; ++i) least = std::min(least, out.points[i].separation);
     const R size = std::max(a.size, b.size);
     if (axis.separation > 0 || (axis.kept && out.count > 0) ||
         least <= axis.separation + R(4) * axisTolerance(size, axis.separation) +

@@ -83,8 +83,8 @@ struct Candidates {
     std::array<std::uint32_t, 5> id;
     int count = 0;
     void add(const Vec3<R>& x, std::uint32_t name) {
-        at[static_cast<std::size_t>(count)] = x;
-        id[static_cast<std::size_t>(count++)] = name;
+        at[count] = x;
+        id[count++] = name;
     }
 };
 
@@ -138,21 +138,16 @@ void roundAgainstPlane(const Round& a, const Pose<Space<R, 3>>& Xa, const HalfSp
         if (height + local.dot(all.at[i]) <= speculative) near.add(all.at[i], all.id[i]);
     if (near.count == 0) return;
     out.normal = -n;
-    const auto separation = [&](int i) {
-        return R(height + local.dot(near.at[static_cast<std::size_t>(i)]));
-    };
+    const auto separation = [&](int i) { return R(height + local.dot(near.at[i])); };
     const auto emit = [&](int i) {
-        const V x = toWorld<S>(Xa, near.at[static_cast<std::size_t>(i)]);
+        const V x = toWorld<S>(Xa, near.at[i]);
         const R s = separation(i);
-        addPoint<S>(out, x, x - s * n, s,
-                    vertexFeature(true, static_cast<int>(near.id[static_cast<std::size_t>(i)])));
+        addPoint<S>(out, x, x - s * n, s, vertexFeature(true, static_cast<int>(near.id[i])));
     };
-    const auto name = [&](int i) {
-        return vertexFeature(true, static_cast<int>(near.id[static_cast<std::size_t>(i)]));
-    };
+    const auto name = [&](int i) { return vertexFeature(true, static_cast<int>(near.id[i])); };
     reducePoints<S>(
         near.count, local, std::max(a.radius, a.halfLength), out.memory, separation,
-        [&](int i) { return near.at[static_cast<std::size_t>(i)]; }, name, emit);
+        [&](int i) { return near.at[i]; }, name, emit);
 }
 
 /// Point of a triangle nearest to x: over the face its foot, else the nearest point of the sides.

@@ -81,8 +81,8 @@ struct CoreHeights {
 
     void set(int face, R atFirst, R atSecond) {
         if (face >= kMost) return;
-        first[static_cast<std::size_t>(face)] = atFirst;
-        second[static_cast<std::size_t>(face)] = atSecond;
+        first[face] = atFirst;
+        second[face] = atSecond;
     }
     /// True if one end is higher than `level` over one of the faces.
     bool over(const HullEdge& e, R level) const {

@@ -94,7 +94,7 @@ TYPED_TEST(BoxCapsule, ClosestFeatureOfTheBox) {
     ASSERT_EQ(lying.count, 2);
     double left = 1e9, right = -1e9;
     for (int i = 0; i < 2; ++i) {
-        const auto& p = lying.points[static_cast<std::size_t>(i)];
+        const auto& p = lying.points[i];
         EXPECT_NEAR(p.separation, -0.05, eps);
         left = std::min(left, static_cast<double>(p.pointA.x()));
         right = std::max(right, static_cast<double>(p.pointA.x()));

@@ -28,8 +28,7 @@ double distanceOfPoints(const Manifold<S>& m, const Manifold<S>& oracle) {
     for (int i = 0; i < m.count; ++i) {
         double nearest = 1e9;
         for (int k = 0; k < oracle.count; ++k) {
-            const auto &p = m.points[static_cast<std::size_t>(i)],
-                       &q = oracle.points[static_cast<std::size_t>(k)];
+            const auto &p = m.points[i], &q = oracle.points[k];
             nearest = std::min(
                 nearest, static_cast<double>((p.pointA - q.pointA).norm() + (p.pointB - q.pointB).norm() +
                                              std::abs(p.separation - q.separation)));

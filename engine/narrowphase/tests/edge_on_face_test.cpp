@@ -102,8 +102,7 @@ TYPED_TEST(EdgeOnFace, AsManyPointsByAxesAsByDistance) {
         gjk(a, A, b, B, R(10), apart);
         if (apart.count == 0) continue;
         R least = R(10);
-        for (int k = 0; k < apart.count; ++k)
-            least = std::min(least, apart.points[static_cast<std::size_t>(k)].separation);
+        for (int k = 0; k < apart.count; ++k) least = std::min(least, apart.points[k].separation);
         B.p += (R(-1e-3) - least) * apart.normal;
         Manifold<S> byAxes, byDistance;
         sat(a, A, b, B, R(5e-3), byAxes);

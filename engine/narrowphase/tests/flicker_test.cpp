@@ -50,7 +50,7 @@ typename S::Rot attitude(double yaw, double pitch, double roll) {
 template <class S>
 std::set<std::uint32_t> namesOf(const Manifold<S>& m) {
     std::set<std::uint32_t> names;
-    for (int i = 0; i < m.count; ++i) names.insert(m.points[static_cast<std::size_t>(i)].feature);
+    for (int i = 0; i < m.count; ++i) names.insert(m.points[i].feature);
     return names;
 }
 

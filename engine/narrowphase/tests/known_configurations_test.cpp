@@ -60,7 +60,7 @@ TYPED_TEST(Known, FaceOnFaceHasAFullManifold) {
             // The patch is [-0.3, 0.5] x [-0.4, 0.5]: its corners, on both faces.
             std::set<std::pair<int, int>> corners;
             for (int i = 0; i < m.count; ++i) {
-                const auto& p = m.points[static_cast<std::size_t>(i)];
+                const auto& p = m.points[i];
                 EXPECT_NEAR(p.pointA.y(), 0.5, tol<S>(1e-15, 1e-6));
                 EXPECT_NEAR(p.pointB.y(), 0.4, tol<S>(1e-15, 1e-6));
                 EXPECT_NEAR(p.separation, -0.1, tol<S>(1e-15, 1e-6));

@@ -32,7 +32,7 @@ struct Pairing {
         manifold.count = 0;
         manifold.normal = normal;
         for (const auto& [x, z, separation] : points) {
-            auto& p = manifold.points[static_cast<std::size_t>(manifold.count++)];
+            auto& p = manifold.points[manifold.count++];
             p.pointB = Xa.p + vec<S>(x, separation, z);
             p.pointA = p.pointB - static_cast<R>(separation) * normal;
             p.separation = static_cast<R>(separation);
@@ -41,13 +41,12 @@ struct Pairing {
     }
     std::set<std::uint32_t> names() const {
         std::set<std::uint32_t> all;
-        for (int i = 0; i < manifold.count; ++i)
-            all.insert(manifold.points[static_cast<std::size_t>(i)].feature);
+        for (int i = 0; i < manifold.count; ++i) all.insert(manifold.points[i].feature);
         return all;
     }
     const ManifoldPoint<S>* near(double x, double z = 0) const {
         for (int i = 0; i < manifold.count; ++i) {
-            const auto& p = manifold.points[static_cast<std::size_t>(i)];
+            const auto& p = manifold.points[i];
             V d = p.pointB - vec<S>(x, 0, z);
             d.y() = 0;
             if (d.norm() < R(1e-3)) return &p;
@@ -62,10 +61,9 @@ TYPED_TEST(ManifoldKinds, TheDeepestIsTheDeepestWhereverItStands) {
         Manifold<S> m;
         m.count = 2;
         for (int i = 0; i < 2; ++i) {
-            m.points[static_cast<std::size_t>(i)].pointA = m.points[static_cast<std::size_t>(i)].pointB =
-                S::Vec::Zero();
-            m.points[static_cast<std::size_t>(i)].separation = typename S::Real(i == deepest ? -0.02 : -0.01);
-            m.points[static_cast<std::size_t>(i)].feature = static_cast<std::uint32_t>(7 + i);
+            m.points[i].pointA = m.points[i].pointB = S::Vec::Zero();
+            m.points[i].separation = typename S::Real(i == deepest ? -0.02 : -0.01);
+            m.points[i].feature = static_cast<std::uint32_t>(7 + i);
         }
         ManifoldCache<S> cache;
         const Pose<S> X;
@@ -124,7 +122,7 @@ TYPED_TEST(ManifoldKinds, ThePersistentCarriesItsPointsAlong) {
     ASSERT_EQ(pair.manifold.count, 2);
     double nearest = 1;
     for (int i = 0; i < 2; ++i) {
-        const auto& p = pair.manifold.points[static_cast<std::size_t>(i)];
+        const auto& p = pair.manifold.points[i];
         const double away = std::max((p.pointA - toWorld<S>(move, old.pointA)).norm(),
                                      (p.pointB - toWorld<S>(move, old.pointB)).norm());
         if (away > nearest) continue;

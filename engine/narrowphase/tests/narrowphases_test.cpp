@@ -70,7 +70,7 @@ TYPED_TEST(NarrowPhases, AgreeWithTheClosestPoints) {
             ASSERT_NEAR(static_cast<double>(m.normal.norm()), 1, tol<S>(1e-14, 1e-6));
             std::set<std::uint32_t> names;
             for (int i = 0; i < m.count; ++i) {
-                const auto& p = m.points[static_cast<std::size_t>(i)];
+                const auto& p = m.points[i];
                 names.insert(p.feature);
                 const typename S::Vec gap = p.pointB - p.pointA;
                 EXPECT_LE(static_cast<double>((gap - p.separation * m.normal).norm()), eps);

@@ -181,8 +181,7 @@ Manifold<S> collide(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, con
 template <class S>
 double leastSeparation(const Manifold<S>& m) {
     double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < m.count; ++i)
-        least = std::min(least, static_cast<double>(m.points[static_cast<std::size_t>(i)].separation));
+    for (int i = 0; i < m.count; ++i) least = std::min(least, static_cast<double>(m.points[i].separation));
     return least;
 }
 

@@ -47,7 +47,7 @@ TYPED_TEST(Pairs, ManifoldKeepsItsContract) {
         ASSERT_LE(m.count, S::maxManifoldPoints);
         EXPECT_NEAR(m.normal.norm(), 1, eps);
         for (int i = 0; i < m.count; ++i) {
-            const auto& p = m.points[static_cast<std::size_t>(i)];
+            const auto& p = m.points[i];
             EXPECT_LE(p.separation, reach);
             const typename S::Vec gap = p.pointB - p.pointA;
             EXPECT_NEAR(gap.dot(m.normal), p.separation, eps);
@@ -56,7 +56,7 @@ TYPED_TEST(Pairs, ManifoldKeepsItsContract) {
             if (p.separation <= 0) {
                 EXPECT_LE((gap - p.separation * m.normal).norm(), eps);
             }
-            for (int k = 0; k < i; ++k) EXPECT_NE(m.points[static_cast<std::size_t>(k)].feature, p.feature);
+            for (int k = 0; k < i; ++k) EXPECT_NE(m.points[k].feature, p.feature);
         }
     });
     EXPECT_GT(touching, total / 2);
@@ -107,9 +107,7 @@ TYPED_TEST(Pairs, SwappingAAndBFlipsTheManifold) {
                              [](const auto& p, const auto& q) { return p.separation < q.separation; });
         double nearest = 1e9;
         for (int i = 0; i < ba.count; ++i)
-            nearest = std::min(nearest,
-                               static_cast<double>(
-                                   (ba.points[static_cast<std::size_t>(i)].pointB - deepest->pointA).norm()));
+            nearest = std::min(nearest, static_cast<double>((ba.points[i].pointB - deepest->pointA).norm()));
         EXPECT_LE(nearest, std::max(100 * eps, across));
     });
 }
@@ -120,7 +118,7 @@ void expectSameMoved(const Manifold<S>& m, const Manifold<S>& moved, const Pose<
     if (m.count == 0) return;
     EXPECT_LE((rotate(by.q, m.normal) - moved.normal).norm(), eps);
     for (int i = 0; i < m.count; ++i) {
-        const auto &p = m.points[static_cast<std::size_t>(i)], &q = moved.points[static_cast<std::size_t>(i)];
+        const auto &p = m.points[i], &q = moved.points[i];
         EXPECT_NEAR(p.separation, q.separation, eps);
         EXPECT_LE((toWorld<S>(by, p.pointA) - q.pointA).norm(), eps);
         EXPECT_EQ(p.feature, q.feature);
@@ -207,9 +205,7 @@ TYPED_TEST(Pairs, SmallMotionsKeepFeatures) {
         for (int i = 0; i < before.count; ++i) {
             ++total;
             for (int k = 0; k < after.count; ++k)
-                if (after.points[static_cast<std::size_t>(k)].feature ==
-                    before.points[static_cast<std::size_t>(i)].feature)
-                    ++same;
+                if (after.points[k].feature == before.points[i].feature) ++same;
         }
     });
     EXPECT_GT(total, 500);

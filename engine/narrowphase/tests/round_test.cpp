@@ -45,8 +45,7 @@ class Round : public testing::Test {
             const typename S::Vec d = vec<S>(std::cos(k * kHalfTurn / 8), 0, std::sin(k * kHalfTurn / 8));
             double furthest = -1e9;
             for (int i = 0; i < m.count; ++i)
-                furthest = std::max(furthest,
-                                    static_cast<double>(d.dot(m.points[static_cast<std::size_t>(i)].pointA)));
+                furthest = std::max(furthest, static_cast<double>(d.dot(m.points[i].pointA)));
             least = std::min(least, furthest);
         }
         return least;
@@ -73,7 +72,7 @@ TYPED_TEST(Round, StandingOnACapHasFourSpreadPoints) {
             this->by(entry.name, this->cylinder, this->at(0, -1), this->cylinder, this->at(0.3, 0.99, 0.1));
         this->expectContact(m, up, -0.01, 4);
         for (int i = 0; i < 4; ++i) {
-            const auto& p = m.points[static_cast<std::size_t>(i)].pointA;
+            const auto& p = m.points[i].pointA;
             EXPECT_LE(std::hypot(p.x(), p.z()), 0.5 + 1e-5);
             EXPECT_LE(std::hypot(p.x() - 0.3, p.z() - 0.1), 0.5 + 1e-5);
         }

@@ -410,7 +410,7 @@ TYPED_TEST(JointAxes3, ConeLimitHolds) {
         def.anchorB = at<S>(0, 0.5);
         def.axisA = def.axisB = at<S>(0, -1);
         const int cone = type == JointType::Ball ? 0 : 1;
-        def.axes[static_cast<std::size_t>(cone)] = {AxisMode::Limited, -1, R(0.6)};
+        def.axes[cone] = {AxisMode::Limited, -1, R(0.6)};
         OneBody<S> one(earth<S>(), def, 0, -0.5);
         double widest = 0;
         for (int i = 0; i < 2000; ++i) {

@@ -88,8 +88,7 @@ struct Pair {
         JointRows<S> rows;
         findJoint<S>(def.type).evaluate(made, world.pose(ids[0]), world.pose(ids[1]), rows);
         double worst = 0;
-        for (int i = 0; i < rows.equalities; ++i)
-            worst = std::max(worst, std::abs(double(rows.error[static_cast<std::size_t>(i)])));
+        for (int i = 0; i < rows.equalities; ++i) worst = std::max(worst, std::abs(double(rows.error[i])));
         return worst;
     }
     void throwBodies() {
@@ -234,7 +233,7 @@ TYPED_TEST(JointTable, SixDofIsEachOfTheOthers) {
         general.type = JointType::SixDof;
         const typename S::Vec axis = at3<S>(0.6, 0.8, 0);
         special.axisA = special.axisB = general.axisA = general.axisB = axis;
-        for (const int k : c.free) general.axes[static_cast<std::size_t>(k)].mode = AxisMode::Free;
+        for (const int k : c.free) general.axes[k].mode = AxisMode::Free;
         // Both are also driven alike on the first free coordinate.
         if (c.type == JointType::Slider || c.type == JointType::Hinge) {
             JointAxis<R>& one = special.axes[0];
@@ -243,7 +242,7 @@ TYPED_TEST(JointTable, SixDofIsEachOfTheOthers) {
             one.motorMaxForce = R(0.2);
             one.frequency = R(2);
             one.dampingRatio = R(0.3);
-            general.axes[static_cast<std::size_t>(c.free[0])] = one;
+            general.axes[c.free[0]] = one;
         }
         Pair<S> a(special), b(general);
         a.throwBodies();

@@ -146,7 +146,7 @@ TEST_P(RoundShapesAtRest, CylindersStack) {
                                      Pose<S>::identityRot(), 1, material));
     for (int i = 0; i < 600; ++i) world.step(1.0 / 60);
     for (int i = 0; i < 4; ++i) {
-        const Pose<S> X = world.pose(bodies[static_cast<std::size_t>(i)]);
+        const Pose<S> X = world.pose(bodies[i]);
         EXPECT_NEAR(X.p.x(), 0.03 * (i % 2), 1e-3);
         EXPECT_NEAR(X.p.y(), 0.2 + 0.4 * i, 5e-4);
         EXPECT_GT(rotate(X.q, Eigen::Vector3d(Eigen::Vector3d::UnitY())).y(), 1 - 1e-6);

@@ -65,9 +65,7 @@ Moments moments(const Hull<Space<R, 3>>& s) {
     const auto& hull = *s.data;
     const V origin = hull.vertices[0].template cast<double>();
     const auto vertex = [&](int i) {
-        return V(hull.vertices[static_cast<std::size_t>(hull.loops[static_cast<std::size_t>(i)])]
-                     .template cast<double>() -
-                 origin);
+        return V(hull.vertices[hull.loops[i]].template cast<double>() - origin);
     };
     Moments m;
     M second = M::Zero();

@@ -41,8 +41,8 @@ class Builder {
     }
 
   private:
-    const V& at(int i) const { return points_[static_cast<std::size_t>(i)]; }
-    Face& face(int i) { return faces_[static_cast<std::size_t>(i)]; }
+    const V& at(int i) const { return points_[i]; }
+    Face& face(int i) { return faces_[i]; }
 
     double distance(const Face& f, int p) const { return f.normal.dot(at(p)) - f.offset; }
 

@@ -53,10 +53,8 @@ void expectValid(const HullData<S>& h, const Points<S>& points, double size) {
         for (const auto& p : points) EXPECT_LE(face.normal.dot(p) - face.offset, eps);
         EXPECT_LT(face.normal.dot(h.center), face.offset);
         for (int i = 0; i < face.count; ++i) {
-            const auto loop = [&](int k) {
-                return h.loops[static_cast<std::size_t>(face.first + k % face.count)];
-            };
-            const auto vertex = [&](int k) { return h.vertices[static_cast<std::size_t>(loop(k))]; };
+            const auto loop = [&](int k) { return h.loops[face.first + k % face.count]; };
+            const auto vertex = [&](int k) { return h.vertices[loop(k)]; };
             EXPECT_NEAR(face.normal.dot(vertex(i)), face.offset, eps);
             const typename S::Vec turn = (vertex(i + 1) - vertex(i)).cross(vertex(i + 2) - vertex(i + 1));
             EXPECT_GT(turn.dot(face.normal), 0);
@@ -67,10 +65,9 @@ void expectValid(const HullData<S>& h, const Points<S>& points, double size) {
     for (const HullEdge& e : h.edges) {
         EXPECT_EQ(faceOf.at({e.v0, e.v1}), e.left);
         EXPECT_EQ(faceOf.at({e.v1, e.v0}), e.right);
-        const auto& l = h.faces[static_cast<std::size_t>(e.left)];
-        const auto& r = h.faces[static_cast<std::size_t>(e.right)];
-        const typename S::Vec along =
-            h.vertices[static_cast<std::size_t>(e.v1)] - h.vertices[static_cast<std::size_t>(e.v0)];
+        const auto& l = h.faces[e.left];
+        const auto& r = h.faces[e.right];
+        const typename S::Vec along = h.vertices[e.v1] - h.vertices[e.v0];
         EXPECT_GT(l.normal.cross(r.normal).dot(along), 0);  // convex at the edge
     }
 }

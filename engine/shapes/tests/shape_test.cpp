@@ -234,8 +234,8 @@ TEST(HullMass, PartsAddUp) {
     const double cut = 0.2;
     for (const V& v : whole.data->vertices) (v.x() < cut ? left : right).push_back(v);
     for (const HullEdge& e : whole.data->edges) {
-        const V& a = whole.data->vertices[static_cast<std::size_t>(e.v0)];
-        const V& b = whole.data->vertices[static_cast<std::size_t>(e.v1)];
+        const V& a = whole.data->vertices[e.v0];
+        const V& b = whole.data->vertices[e.v1];
         if ((a.x() < cut) == (b.x() < cut)) continue;
         const V p = a + (cut - a.x()) / (b.x() - a.x()) * (b - a);
         left.push_back(p);

@@ -105,8 +105,7 @@ void expectNeighbours(const Data& data) {
     for (std::uint32_t i = 0; i < data.pieceCount(); ++i)
         for (int side = 0; side < 3; ++side) {
             const auto c = data.corners(i);
-            const std::uint32_t a = c[static_cast<std::size_t>(side)],
-                                b = c[static_cast<std::size_t>((side + 1) % 3)];
+            const std::uint32_t a = c[side], b = c[(side + 1) % 3];
             std::uint32_t beyond = kNullIndex;
             for (std::uint32_t j = 0; j < data.pieceCount(); ++j) {
                 const auto other = data.corners(j);

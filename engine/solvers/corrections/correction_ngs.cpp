@@ -78,7 +78,7 @@ class Ngs final : public PositionCorrection<S> {
     void correctTogether(PositionProblem<S>& problem) {
         for (std::size_t k = 0; k < held_.size(); ++k)
             for (int r = 0; r < joints_[held_[k]].block.rows; ++r)
-                system_.at(k)[r] = -joints_[held_[k]].row[static_cast<std::size_t>(r)].error;
+                system_.at(k)[r] = -joints_[held_[k]].row[r].error;
         system_.solve();
         for (std::size_t k = 0; k < held_.size(); ++k) move(problem, joints_[held_[k]], system_.at(k));
         problem.applyRotations();
@@ -89,8 +89,7 @@ class Ngs final : public PositionCorrection<S> {
             JointPositions<S>& joint = joints_[j];
             problem.evaluateJoint(j, joint);
             BlockVector<S> error(joint.block.rows);
-            for (int r = 0; r < joint.block.rows; ++r)
-                error[r] = joint.row[static_cast<std::size_t>(r)].error;
+            for (int r = 0; r < joint.block.rows; ++r) error[r] = joint.row[r].error;
             const BlockVector<S> lambda = -(joint.inverseK * error);
             move(problem, joint, lambda.data());
             problem.applyRotations();
@@ -98,8 +97,7 @@ class Ngs final : public PositionCorrection<S> {
     }
 
     static void move(PositionProblem<S>& problem, const JointPositions<S>& joint, const Real* lambda) {
-        for (int r = 0; r < joint.block.rows; ++r)
-            problem.move(joint.block, joint.row[static_cast<std::size_t>(r)], lambda[r]);
+        for (int r = 0; r < joint.block.rows; ++r) problem.move(joint.block, joint.row[r], lambda[r]);
     }
 
     void correctLimits(PositionProblem<S>& problem) {

@@ -163,7 +163,7 @@ class Dissection {
         const auto count = static_cast<std::int32_t>(bodies.size());  // coordinates are smaller
         atValue_.assign(2 * bodies.size() + 1, {});
         const auto at = [&](std::int32_t value) -> auto& {
-            return atValue_[static_cast<std::size_t>(value + count)];
+            return atValue_[value + count];
         };
         for (const std::uint32_t body : bodies) ++at(coordinate(body, from, to)).bodies;
         for (const std::uint32_t k : joints) {

@@ -238,10 +238,9 @@ class Nsgs final : public Solver<S> {
         for (std::size_t i = 0; i < all.rows.size(); ++i) {
             const double weight = all.rows[i].invK > 0 ? 1.0 / static_cast<double>(all.rows[i].invK) : 0.0;
             for (int p = 0; p < m; ++p) {
-                const double f = weight * static_cast<double>(stepHistory_[static_cast<std::size_t>(p)][i]);
+                const double f = weight * static_cast<double>(stepHistory_[p][i]);
                 y[p] += f * static_cast<double>(start_[i]);
-                for (int q = 0; q <= p; ++q)
-                    A(p, q) += f * static_cast<double>(stepHistory_[static_cast<std::size_t>(q)][i]);
+                for (int q = 0; q <= p; ++q) A(p, q) += f * static_cast<double>(stepHistory_[q][i]);
             }
         }
         // Scaled to unit diagonal, so that the shift means the same for old and new columns.
@@ -269,8 +268,7 @@ class Nsgs final : public Solver<S> {
         gamma = gamma.cwiseProduct(scale).eval();
         for (std::size_t i = 0; i < all.rows.size(); ++i) {
             double value = static_cast<double>(mapped_[i]);
-            for (int p = 0; p < m; ++p)
-                value -= gamma[p] * static_cast<double>(mapHistory_[static_cast<std::size_t>(p)][i]);
+            for (int p = 0; p < m; ++p) value -= gamma[p] * static_cast<double>(mapHistory_[p][i]);
             start_[i] = static_cast<Real>(value);
         }
     }

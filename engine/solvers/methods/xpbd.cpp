@@ -113,7 +113,7 @@ class Xpbd final : public Solver<S> {
             const int held = joint_.block.rows;
             if (held > 0) {
                 BlockVector<S> C(held);
-                for (int r = 0; r < held; ++r) C[r] = joint_.row[static_cast<std::size_t>(r)].error;
+                for (int r = 0; r < held; ++r) C[r] = joint_.row[r].error;
                 const BlockVector<S> step = -(joint_.inverseK * C);
                 for (int r = 0; r < held; ++r) {
                     const auto at = static_cast<std::size_t>(r);

@@ -100,7 +100,7 @@ TYPED_TEST(JointFrontsOf, RandomPatternsAreTheDenseSolution) {
                     p.factor();
                     const std::vector<TypeParam> x = p.solve(right);
                     Eigen::VectorXd found(n);
-                    for (Eigen::Index i = 0; i < n; ++i) found[i] = double(x[static_cast<std::size_t>(i)]);
+                    for (Eigen::Index i = 0; i < n; ++i) found[i] = double(x[i]);
                     EXPECT_LT((p.K * found - right).cwiseAbs().maxCoeff(), small)
                         << size << " " << nodes << " " << degree;
                 }
@@ -121,9 +121,9 @@ TYPED_TEST(JointFrontsOf, UnknownsBelowTheirFloorAreLeftOut) {
     const std::vector<TypeParam> x = p.solve(Eigen::VectorXd::Ones(n));
     for (Eigen::Index i = 0; i < n; ++i) {
         double left = -1;
-        for (Eigen::Index j = 0; j < n; ++j) left += p.K(i, j) * double(x[static_cast<std::size_t>(j)]);
-        const bool out = p.floor[static_cast<std::size_t>(i)] > 0;
-        EXPECT_NEAR(out ? double(x[static_cast<std::size_t>(i)]) : left, 0, 1e-5) << i;
+        for (Eigen::Index j = 0; j < n; ++j) left += p.K(i, j) * double(x[j]);
+        const bool out = p.floor[i] > 0;
+        EXPECT_NEAR(out ? double(x[i]) : left, 0, 1e-5) << i;
     }
 }
 

@@ -60,7 +60,7 @@ class JointSystems : public testing::Test {
         join(a, b, S::dim);
         Block<S>& block = blocks.back();
         for (int i = 0; i < S::dim; ++i) {
-            Row<S>& row = rows.back()[static_cast<std::size_t>(i)];
+            Row<S>& row = rows.back()[i];
             row.lin = S::Vec::Unit(i);
             row.angA = -cross(arm, row.lin);
             row.angB = cross(typename S::Vec(-arm), row.lin);

@@ -93,7 +93,7 @@ LineCollisions::LineCollisions(const Scenario& scenario, std::vector<int> bodies
 }
 
 LineCollisions::Member LineCollisions::memberOf(int index) const {
-    const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+    const Body& body = scenario_.bodies[index];
     const std::string subject = bodyTitle(scenario_, index);
     Member member;
     member.velocity = dot(body.velocity, direction_);

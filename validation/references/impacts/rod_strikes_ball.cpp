@@ -25,7 +25,7 @@ class RodStrikesBall : public Reference {
   public:
     RodStrikesBall(const Scenario& scenario, int rod, int ball)
         : scenario_(scenario), ball_(ballOf(scenario, ball)) {
-        const Body& swung = scenario.bodies[static_cast<std::size_t>(rod)];
+        const Body& swung = scenario.bodies[rod];
         const std::string subject = bodyTitle(scenario, rod);
         requireUndisturbed(scenario, ball);
         requireContact(scenario, rod, ball);

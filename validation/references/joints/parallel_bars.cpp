@@ -121,7 +121,7 @@ class ParallelBars : public Reference {
     }
 
     void addInertia(int index, Vec3 g, Vec3& weighted, double& moment) {
-        const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+        const Body& body = scenario_.bodies[index];
         const std::string subject = bodyTitle(scenario_, index);
         require(negligible(norm(gravityOn(scenario_, index) - g), norm(g)),
                 "gravity acts differently on the bodies");

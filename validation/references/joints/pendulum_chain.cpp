@@ -207,7 +207,7 @@ class PendulumChain : public Reference {
     }
 
     void addLink(std::size_t i, int index, OdeState& start) {
-        const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+        const Body& body = scenario_.bodies[index];
         const std::string subject = bodyTitle(scenario_, index);
         const Vec3 before = anchorOf(scenario_, *joints_[i], index), com = centerOfMass(body);
         const Vec3 next = i + 1 < joints_.size() ? anchorOf(scenario_, *joints_[i + 1], index) : com;

@@ -101,9 +101,7 @@ std::size_t LinearProgram::entering(Phase phase, const std::vector<Real>& cost, 
 Eigen::Index LinearProgram::leaving(Phase phase, const Vector& direction) const {
     const Real small = kPivot * direction.cwiseAbs().maxCoeff();
     // An artificial unknown stays zero in the second phase: it leaves before it would move.
-    const auto pinned = [&](Eigen::Index i) {
-        return phase == Phase::Cost && basis_[static_cast<std::size_t>(i)].artificial;
-    };
+    const auto pinned = [&](Eigen::Index i) { return phase == Phase::Cost && basis_[i].artificial; };
     Real bound = -1;
     for (Eigen::Index i = 0; i < rows_; ++i) {
         const Real d = pinned(i) ? std::abs(direction[i]) : direction[i];

@@ -45,8 +45,7 @@ std::vector<SpaceCorner> cornersOf(const Scenario& scenario, const Body& body) {
 }  // namespace
 
 PlanarFrame::PlanarFrame(const Scenario& scenario, int index, int floor)
-    : body_(scenario.bodies[static_cast<std::size_t>(index)]),
-      plane_(planeOf(scenario, floor, centerOfMass(body_))) {
+    : body_(scenario.bodies[index]), plane_(planeOf(scenario, floor, centerOfMass(body_))) {
     const std::string subject = bodyTitle(scenario, index);
     requireUndisturbed(scenario, index, {.constantForces = true});
     requireContact(scenario, index, floor);

@@ -109,7 +109,7 @@ class BallInCylinder : public Reference {
     }
     /// The wall reaches from the lowest to the highest point of the way.
     void requireWall(int index, double swing, const std::string& subject) const {
-        const Body& wall = scenario_.bodies[static_cast<std::size_t>(index)];
+        const Body& wall = scenario_.bodies[index];
         const auto& mesh = std::get<scenario::TriangleMesh>(wall.shapes[0].geometry);
         double low = 1e300, high = -1e300;
         for (const Vec3 v : mesh.vertices) {

@@ -30,9 +30,7 @@ constexpr std::size_t kMostPieces = 5000;  // pieces of a natural time at most
 class BallOffBall : public Reference {
   public:
     BallOffBall(const Scenario& scenario, int index, int base)
-        : scenario_(scenario),
-          ball_(ballOf(scenario, index)),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]) {
+        : scenario_(scenario), ball_(ballOf(scenario, index)), body_(scenario.bodies[index]) {
         const std::string subject = bodyTitle(scenario, index);
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, base);

@@ -47,7 +47,7 @@ Vec3 circleCenter(Vec3 a, Vec3 b, Vec3 c, Vec3 axis) {
 }  // namespace
 
 Hollow hollowOf(const Scenario& scenario, int base, Vec3 inside) {
-    const Body& body = scenario.bodies[static_cast<std::size_t>(base)];
+    const Body& body = scenario.bodies[base];
     const std::string subject = bodyTitle(scenario, base);
     require(body.type == scenario::BodyType::Static, subject + " is not static");
     const Facets facets = facetsOf(body);

@@ -27,7 +27,7 @@ class Turntable : public Reference {
           ball_(ballOf(scenario, index)),
           plane_(planeOf(scenario, table, ball_.center)) {
         const std::string subject = bodyTitle(scenario, index);
-        const Body& disc = scenario.bodies[static_cast<std::size_t>(table)];
+        const Body& disc = scenario.bodies[table];
         require(scenario.dimension == 3, "a turntable needs three dimensions");
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, table);

@@ -52,7 +52,7 @@ class PushedBlocks : public Reference {
     }
 
     void add(int index, int floor) {
-        const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+        const Body& body = scenario_.bodies[index];
         const std::string subject = bodyTitle(scenario_, index);
         requireUndisturbed(scenario_, index, {.constantForces = true});
         requireContact(scenario_, index, floor);

@@ -41,7 +41,7 @@ class AtRest : public Reference {
 
   private:
     void check(int index) const {
-        const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+        const Body& body = scenario_.bodies[index];
         const std::string subject = bodyTitle(scenario_, index);
         require(body.velocity == Vec3{} && body.angularVelocity == Vec3{},
                 subject + " starts with a velocity");

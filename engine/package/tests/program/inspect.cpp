@@ -55,7 +55,7 @@ int main() {
                     std::printf("    point of %s and %s, separation %.1e\n",
                                 bodyName(world.bodyOf(world.shapes()[c.shapeA])).c_str(),
                                 bodyName(world.bodyOf(world.shapes()[c.shapeB])).c_str(),
-                                c.manifold.points[static_cast<std::size_t>(i)].separation);
+                                c.manifold.points[i].separation);
     }
     std::vector<ContactView<S>> contacts;
     world.readContacts(contacts);
