@@ -23,7 +23,7 @@ double surfaceDistance(const Geometry& geometry, const Pose& pose, const Vec3& p
     return std::abs(outside);
 }
 
-double angleBetween(const Vec3& a, const Vec3& b) {
+double normalAngle(const Vec3& a, const Vec3& b) {
     return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
@@ -66,7 +66,7 @@ class ContactInstant : public DynamicsTest {
                 seen.surface = std::max(seen.surface, off(a0, b0));
                 seen.surfaceAtEnd = std::max(seen.surfaceAtEnd, off(poseOf(after[0]), poseOf(after[1])));
                 double nearest = kPi;
-                for (const Vec3& n : normals(a0, b0)) nearest = std::min(nearest, angleBetween(n, c.normal));
+                for (const Vec3& n : normals(a0, b0)) nearest = std::min(nearest, normalAngle(n, c.normal));
                 seen.normal = std::max(seen.normal, nearest);
             }
         }
