@@ -198,7 +198,8 @@ class IncrementalImpact : public Reference {
     }
     void findNextTouch() {
         const double end = runEnd(scenario_), span = end - time_;
-        // At least fifty samples a turn; a body too fast for that is followed only as far as the samples go.
+        // The search takes at least fifty samples a turn; a body too fast for that is followed only as far as the samples
+        // go.
         constexpr int kMostLooks = 100000;
         const double looks =
             std::max(2000.0, std::ceil(8.0 * std::abs(static_cast<double>(after_.rate)) * span));
