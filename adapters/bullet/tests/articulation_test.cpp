@@ -6,24 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "adapters/bullet/tests/joints.hpp"
 #include "adapters/interface/tests/scenes.hpp"
 
 namespace rigor::test {
 namespace {
 
 const std::string kMatched = "preset=matched,articulation=multibody";
-
-Joint joint(JointType type, int a, int b, Vec3 anchorA, Vec3 anchorB, Vec3 axis = {0, 0, 1}) {
-    Joint j;
-    j.name = "joint";
-    j.type = type;
-    j.bodyA = a;
-    j.bodyB = b;
-    j.anchorA = anchorA;
-    j.anchorB = anchorB;
-    j.axisA = j.axisB = axis;
-    return j;
-}
 
 /// A rod of length 1 on a hinge at its end, let go level; angle below the level after `t` by fine RK4.
 Scenario rodOnAHinge(bool turned = false) {

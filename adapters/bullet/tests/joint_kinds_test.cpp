@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "adapters/bullet/tests/joints.hpp"
 #include "adapters/interface/tests/scenes.hpp"
 
 namespace rigor::test {
@@ -15,14 +16,7 @@ using scenario::AxisMode;
 using scenario::JointAxis;
 
 Joint jointAlong(JointType type, int a, int b, Vec3 anchorA, Vec3 anchorB, Vec3 axis = {1, 0, 0}) {
-    Joint j;
-    j.name = "joint";
-    j.type = type;
-    j.bodyA = a;
-    j.bodyB = b;
-    j.anchorA = anchorA;
-    j.anchorB = anchorB;
-    j.axisA = j.axisB = axis;
+    Joint j = joint(type, a, b, anchorA, anchorB, axis);
     j.normalA = {0, 1, 0};
     return j;
 }

@@ -5,22 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "adapters/bullet/tests/joints.hpp"
 #include "adapters/interface/tests/scenes.hpp"
 
 namespace rigor::test {
 namespace {
-
-Joint jointAcross(JointType type, int a, int b, Vec3 anchorA, Vec3 anchorB, Vec3 axis = {0, 0, 1}) {
-    Joint j;
-    j.name = "joint";
-    j.type = type;
-    j.bodyA = a;
-    j.bodyB = b;
-    j.anchorA = anchorA;
-    j.anchorB = anchorB;
-    j.axisA = j.axisB = axis;
-    return j;
-}
 
 /// Largest distance of the two anchors over a run, both bodies moving.
 double worstGap(Simulation& run, const Joint& j, int steps) {
@@ -54,8 +43,8 @@ TEST(BulletJoints, BallAndHingeHoldTheirAnchors) {
         Scenario s = scene();
         const int a = addOffsetBody(s, {1, 0, 0});
         const int b = addOffsetBody(s, {2, 0, 0});
-        s.joints.push_back(jointAcross(type, scenario::kNone, a, {0, 0, 0}, {-1, 0, 0}));
-        s.joints.push_back(jointAcross(type, a, b, {0.5, 0, 0}, {-0.5, 0, 0}));
+        s.joints.push_back(joint(type, scenario::kNone, a, {0, 0, 0}, {-1, 0, 0}));
+        s.joints.push_back(joint(type, a, b, {0.5, 0, 0}, {-0.5, 0, 0}));
         for (const auto& j : s.joints) {
             Simulation run(s, 1.0 / 480);
             EXPECT_LT(worstGap(run, j, 480), 5e-3) << jointName(type);
@@ -70,7 +59,7 @@ TEST(BulletJoints, HingeAxisStaysWhereItIs) {
     Scenario s = scene();
     const int a = addOffsetBody(s, {0.5, 0, 0});
     const Vec3 axis{0, 0.6, 0.8};
-    s.joints.push_back(jointAcross(JointType::Hinge, scenario::kNone, a, {}, {-0.5, 0, 0}, axis));
+    s.joints.push_back(joint(JointType::Hinge, scenario::kNone, a, {}, {-0.5, 0, 0}, axis));
     Simulation run(s, 1.0 / 480);
     run.seconds(0.7);
     const auto state = run.state(a);
@@ -82,7 +71,7 @@ TEST(BulletJoints, SliderMovesAlongItsAxisOnly) {
     Scenario s = scene();
     const int a = addOffsetBody(s, {0, 0, 0});
     const Vec3 axis = Vec3{0.6, -0.8, 0};
-    s.joints.push_back(jointAcross(JointType::Slider, scenario::kNone, a, {}, {}, axis));
+    s.joints.push_back(joint(JointType::Slider, scenario::kNone, a, {}, {}, axis));
     Simulation run(s, 1.0 / 480);
     run.seconds(0.5);
     const auto state = run.state(a);
@@ -96,7 +85,7 @@ TEST(BulletJoints, FixedHoldsACantilever) {
     Scenario s = scene();
     const int a = addOffsetBody(s, {1, 0, 0});
     s.bodies[0].pose.orientation = scenario::fromAxisAngle({0, 1, 0}, 0.7);
-    Joint j = jointAcross(JointType::Fixed, scenario::kNone, a, {0, 0, 0}, {});
+    Joint j = joint(JointType::Fixed, scenario::kNone, a, {0, 0, 0}, {});
     j.anchorB = rotateInverse(s.bodies[0].pose.orientation, Vec3{-1, 0, 0});
     s.joints.push_back(j);
     Simulation run(s, 1.0 / 240);
@@ -113,7 +102,7 @@ TEST(BulletJoints, HalfPeriodOfAPhysicalPendulum) {
     s.bodies[0].collides = false;
     s.bodies[0].angularVelocity = {0, 0, 0.05};
     s.bodies[0].velocity = {0.05, 0, 0};
-    s.joints.push_back(jointAcross(JointType::Hinge, scenario::kNone, a, {}, {0, 1, 0}));
+    s.joints.push_back(joint(JointType::Hinge, scenario::kNone, a, {}, {0, 1, 0}));
     const double half = M_PI * std::sqrt((0.5 + 2.0) / (2.0 * 9.81));
     const double dt = half / 1000;
     Simulation run(s, dt);
@@ -129,7 +118,7 @@ TEST(BulletJoints, ConnectedBodiesCollideOnlyIfRequested) {
         s.gravity = {};
         addBody(s, Sphere{0.5}, {0, 0, 0});
         addBody(s, Sphere{0.5}, {0.8, 0, 0});
-        s.joints.push_back(jointAcross(JointType::Ball, 0, 1, {0.4, 0, 0}, {-0.4, 0, 0}));
+        s.joints.push_back(joint(JointType::Ball, 0, 1, {0.4, 0, 0}, {-0.4, 0, 0}));
         s.joints[0].collideConnected = collide;
         Simulation run(s, 1.0 / 240);
         run.steps(2);
@@ -140,7 +129,7 @@ TEST(BulletJoints, ConnectedBodiesCollideOnlyIfRequested) {
 TEST(BulletJoints, PlanarHingeSwingsInThePlane) {
     Scenario s = scene(0, 0, 2);
     const int a = addBody(s, Box{{0.1, 0.1, 0}}, {1, 0, 0}, 1.0, even(0.02));
-    s.joints.push_back(jointAcross(JointType::Hinge, scenario::kNone, a, {}, {-1, 0, 0}));
+    s.joints.push_back(joint(JointType::Hinge, scenario::kNone, a, {}, {-1, 0, 0}));
     Simulation run(s, 1.0 / 480);
     EXPECT_LT(worstGap(run, s.joints[0], 480), 5e-3);
     EXPECT_EQ(run.state(a).position.z, 0.0);
@@ -181,7 +170,7 @@ TEST(BulletRefuses, WhatItDoesNotHaveAndWhatIsNotANumber) {
     const auto build = [](const Scenario& s, double dt = 1.0 / 60) { Simulation run(s, dt); };
     Scenario distance = scene();
     addBody(distance, Sphere{0.1}, {0, -1, 0});
-    distance.joints.push_back(jointAcross(JointType::Distance, scenario::kNone, 0, {}, {}));
+    distance.joints.push_back(joint(JointType::Distance, scenario::kNone, 0, {}, {}));
     distance.joints[0].length = 1.0;
     EXPECT_THROW(build(distance), adapter::Unsupported);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "adapters/interface/tests/scenes.hpp"
+#include "adapters/ode/tests/free_body.hpp"
 
 namespace rigor::test {
 namespace {
@@ -25,12 +26,6 @@ Joint jointOf(JointType type, int a, int b, const Vec3& anchorA, const Vec3& anc
     joint.anchorA = anchorA;
     joint.anchorB = anchorB;
     return joint;
-}
-/// A free body at `position` that nothing touches.
-int addFree(Scenario& s, const Vec3& position, double mass, const Vec3& moments) {
-    const int b = addBody(s, Sphere{0.1}, position, mass, moments);
-    s.bodies.back().collides = false;
-    return b;
 }
 Vec3 at(const BodyState& state, const Vec3& local) {
     return Pose{state.position, state.orientation} * local;

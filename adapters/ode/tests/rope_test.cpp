@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "adapters/interface/tests/scenes.hpp"
+#include "adapters/ode/tests/free_body.hpp"
 
 namespace rigor::test {
 namespace {
@@ -28,11 +29,6 @@ Joint ropeOf(int a, int b, const Vec3& anchorA, const Vec3& anchorB, double lowe
     joint.axes[0].upper = upper;
     return joint;
 }
-int addRopeEnd(Scenario& s, const Vec3& position, double mass, const Vec3& moments) {
-    const int b = addBody(s, Sphere{0.1}, position, mass, moments);
-    s.bodies.back().collides = false;
-    return b;
-}
 
 /// Two bodies that whirl about each other, tied beside their centres of mass: as long as the rope is taut it
 /// is a rod, whichever end is A, and momentum and angular momentum stay.
@@ -40,8 +36,8 @@ TEST(OdeRopes, ATautRopeIsARod) {
     for (const bool turned : {false, true}) {
         Scenario s = scene();
         s.gravity = {};
-        const int a = addRopeEnd(s, {0, 0, 0}, 1.0, {0.1, 0.2, 0.3}),
-                  b = addRopeEnd(s, {1.5, 0, 0}, 3.0, even(0.4));
+        const int a = addFree(s, {0, 0, 0}, 1.0, {0.1, 0.2, 0.3}),
+                  b = addFree(s, {1.5, 0, 0}, 3.0, even(0.4));
         s.bodies[0].velocity = {0, -3, 0};
         s.bodies[1].velocity = {0, 1, 0};
         s.bodies[0].angularVelocity = {0.3, 0.2, 2.5};
@@ -71,7 +67,7 @@ TEST(OdeRopes, ATautRopeIsARod) {
 TEST(OdeRopes, TheLowerBoundPushes) {
     Scenario s = scene(0.0, 0.0, 2);
     s.gravity = {};
-    const int b = addRopeEnd(s, {0, 1.0, 0}, 2.0, even(0.1));
+    const int b = addFree(s, {0, 1.0, 0}, 2.0, even(0.1));
     s.bodies[0].velocity = {0, -1, 0};
     s.joints.push_back(ropeOf(scenario::kNone, b, {}, {}, 0.4, 1.0));
     Simulation simulation(s, kRopeStep);
@@ -93,7 +89,7 @@ TEST(OdeRopes, TheLowerBoundPushes) {
 TEST(OdeRopes, ASpringHasBounds) {
     Scenario s = scene();
     s.gravity = {};
-    const int b = addRopeEnd(s, {1, 0, 0}, 1.0, even(0.1));
+    const int b = addFree(s, {1, 0, 0}, 1.0, even(0.1));
     Joint joint = ropeOf(scenario::kNone, b, {}, {}, 0.7, 1.0);
     joint.axes[0].stiffness = 4.0;
     joint.axes[0].target = 0.5;
@@ -109,7 +105,7 @@ TEST(OdeRopes, ASpringHasBounds) {
 TEST(OdeRopes, BreakByTheirPull) {
     Scenario s = scene();
     s.gravity = {0, -9.81, 0};
-    const int b = addRopeEnd(s, {0, -1, 0}, 2.0, even(0.1));
+    const int b = addFree(s, {0, -1, 0}, 2.0, even(0.1));
     Joint joint = ropeOf(scenario::kNone, b, {}, {}, 0.0, 1.0);
     joint.breakForce = 25.0;
     s.joints.push_back(joint);
@@ -126,7 +122,7 @@ TEST(OdeRopes, BreakByTheirPull) {
 TEST(OdeRopes, SnapshotsOfATautRopeBringTheSameFutureBack) {
     Scenario s = scene();
     s.gravity = {0, -9.81, 0};
-    const int b = addRopeEnd(s, {0.8, -0.6, 0}, 2.0, even(0.1));
+    const int b = addFree(s, {0.8, -0.6, 0}, 2.0, even(0.1));
     s.joints.push_back(ropeOf(scenario::kNone, b, {}, {0.05, 0.02, 0.01}, 0.0, 1.0));
     Simulation simulation(s, kRopeStep);
     simulation.steps(300);

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "validation/hygiene/tests/source_tree.hpp"
+
 namespace rigor::hygiene {
 namespace {
 
@@ -20,10 +22,6 @@ using Words = std::initializer_list<std::string_view>;
 
 bool contains(Words words, std::string_view text) {
     return std::find(words.begin(), words.end(), text) != words.end();
-}
-
-bool isWordCharacter(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
 bool isName(const Token& token) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -49,6 +50,10 @@ std::string readFile(const std::string& relativePath) {
 
 bool exists(const std::string& relativePath) {
     return fs::exists(kRoot / relativePath);
+}
+
+bool isWordCharacter(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
 }  // namespace rigor::hygiene

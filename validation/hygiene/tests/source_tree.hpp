@@ -16,4 +16,7 @@ std::vector<std::string> sourceFiles(const std::vector<std::string>& endings);
 std::string readFile(const std::string& relativePath);
 bool exists(const std::string& relativePath);
 
+/// True for letters, digits and underscores.
+bool isWordCharacter(char c);
+
 }  // namespace rigor::hygiene

@@ -96,15 +96,11 @@ const std::vector<Word> kWordsOutsideTheEngine{
 /// dimension.
 const std::vector<std::string> kNamesAPlane{" z", " of ", " through ", " across ", " in which "};
 
-bool isPartOfWord(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-}
-
 bool hasWord(const std::string& line, const std::string& word) {
     for (std::size_t at = line.find(word); at != std::string::npos; at = line.find(word, at + 1)) {
         const std::size_t end = at + word.size();
-        const bool begins = at == 0 || !isPartOfWord(line[at - 1]);
-        const bool ends = end == line.size() || !isPartOfWord(line[end]);
+        const bool begins = at == 0 || !isWordCharacter(line[at - 1]);
+        const bool ends = end == line.size() || !isWordCharacter(line[end]);
         const bool namesAPlane =
             word == "in the plane" &&
             std::any_of(kNamesAPlane.begin(), kNamesAPlane.end(),
