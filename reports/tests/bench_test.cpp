@@ -10,6 +10,7 @@
 #include "reports/model/view_model.hpp"
 #include "reports/page/html.hpp"
 #include "reports/summaries/summary.hpp"
+#include "reports/tests/find_table.hpp"
 #include "reports/tests/synthetic_bench.hpp"
 #include "reports/tests/synthetic_run.hpp"
 
@@ -18,12 +19,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-const Table& named(const std::vector<Table>& tables, const std::string& name) {
-    for (const Table& table : tables)
-        if (table.name == name) return table;
-    throw std::runtime_error("no table " + name);
-}
 
 TEST(BenchReport, ThePageGetsWhatTheStoreHas) {
     const results::Run run = synthetic::makeBench();

@@ -15,6 +15,7 @@
 #include "reports/model/view_model.hpp"
 #include "reports/tables/table.hpp"
 #include "reports/tests/csv_reader.hpp"
+#include "reports/tests/find_table.hpp"
 #include "reports/tests/synthetic_run.hpp"
 
 namespace rigor::report {
@@ -157,10 +158,6 @@ TEST(Tables, AreWellFormedInEveryFormat) {
         EXPECT_TRUE(names.contains(name)) << name;
 }
 
-const Table& tableNamed(const std::vector<Table>& tables, const std::string& name) {
-    return *std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.name == name; });
-}
-
 TEST(Tables, SayWhatTheRunSays) {
     const auto run = synthetic::makeRun(8);
     const ViewModel view(run);
@@ -171,11 +168,11 @@ TEST(Tables, SayWhatTheRunSays) {
     for (const auto& c : run.cases)
         inRun += static_cast<std::size_t>(std::count_if(c.audit.begin(), c.audit.end(),
                                                         [](const auto& a) { return a.auditor == "in_run"; }));
-    EXPECT_EQ(tableNamed(tables, "timing").rows.size(), timed);
-    EXPECT_EQ(tableNamed(tables, "phases").rows.size(), phases);
-    EXPECT_EQ(tableNamed(tables, "contacts").rows.size(), inRun);
-    EXPECT_EQ(tableNamed(tables, "ledger").rows.size(), view.ledger().size());
-    const Table& board = tableNamed(tables, "scoreboard");
+    EXPECT_EQ(named(tables, "timing").rows.size(), timed);
+    EXPECT_EQ(named(tables, "phases").rows.size(), phases);
+    EXPECT_EQ(named(tables, "contacts").rows.size(), inRun);
+    EXPECT_EQ(named(tables, "ledger").rows.size(), view.ledger().size());
+    const Table& board = named(tables, "scoreboard");
     ASSERT_EQ(board.rows.size(), run.scenarios.size());
     for (std::size_t s = 0; s < run.scenarios.size(); ++s)
         for (std::size_t c = 0; c < view.columns().size(); ++c) {
@@ -189,7 +186,7 @@ TEST(Tables, SayWhatTheRunSays) {
             EXPECT_EQ(cell.number.has_value(), metric != nullptr && *cell.verdict < Shown::NonFinite);
         }
     // The first of a mechanism's rows that is one's choice is the view's.
-    const Table& trust = tableNamed(tables, "trust");
+    const Table& trust = named(tables, "trust");
     for (const auto& m : view.mechanisms()) {
         const auto row = std::find_if(trust.rows.begin(), trust.rows.end(),
                                       [&](const auto& r) { return r[0].text == m.name; });
