@@ -3,10 +3,11 @@
 //
 // Counts the bodies that get through meshes, height fields and chains, over many cases (rain.hpp):
 //     engine_count_lost_bodies [KEY=VALUE ...]
-//         ground=mesh|field|chain  motion=drop|pile|roll|slide  preset=default|fast  precision=f64|f32
-//         ccd=off|on  form=flat|rough|slope|ridges|slivers  squares=RATIO
-//                             each a list with commas; by default all, ccd=off, and of form and squares those
-//                             that belong to the seed
+//         ground=mesh|field|chain|plate  motion=drop|pile|roll|slide|shoot  preset=default|fast
+//         precision=f64|f32  ccd=none|conservative_advancement|speculative
+//         form=flat|rough|slope|ridges|slivers  squares=RATIO
+//                             each a list with commas; by default all but plate, shoot and those of ccd, and
+//                             of form and squares those that belong to the seed; a plate is flat or a slope
 //         seeds=FIRST-LAST (0-19)  bodies=NUMBER (1000)  duration=SECONDS (3)
 //         follow=BODY         of a single case: writes the state of the body, step by step
 // A line for each case, with what is lost as BODY@STEP:SHAPE. A line can be given again as arguments. The
@@ -37,7 +38,7 @@ Arguments parse(int argc, char** argv) {
                   {"motion", "drop,pile,roll,slide"},
                   {"preset", "default,fast"},
                   {"precision", "f64,f32"},
-                  {"ccd", "off"},
+                  {"ccd", "none"},
                   {"form", ""},
                   {"squares", ""},
                   {"seeds", "0-19"},
@@ -92,7 +93,8 @@ void forSettings(const Arguments& arguments, Case what, const std::function<void
                         what.squares = squares == "own" ? own.squares : std::stod(squares);
                         what.fast = choose<bool>(preset, {"default", "fast"});
                         what.single = choose<bool>(precision, {"f64", "f32"});
-                        what.continuous = choose<bool>(ccd, {"off", "on"});
+                        what.continuous =
+                            choose<Continuous>(ccd, {"none", "conservative_advancement", "speculative"});
                         use(what);
                     }
 }
@@ -104,8 +106,8 @@ int count(const Arguments& arguments) {
             for (const std::string& motion : split(arguments.at("motion"))) {
                 Case what;
                 what.seed = seed;
-                what.ground = choose<Ground>(ground, {"mesh", "field", "chain"});
-                what.motion = choose<Motion>(motion, {"drop", "pile", "roll", "slide"});
+                what.ground = choose<Ground>(ground, {"mesh", "field", "chain", "plate"});
+                what.motion = choose<Motion>(motion, {"drop", "pile", "roll", "slide", "shoot"});
                 what.bodies = std::stoi(arguments.at("bodies"));
                 what.duration = std::stod(arguments.at("duration"));
                 forSettings(arguments, what, [&](const Case& one) {

@@ -36,7 +36,7 @@ Heights::Heights(const Case& what, double half, std::mt19937& random) {
 double Heights::form(const Case& what, int i, int k, std::mt19937& random) const {
     const double x = i * dx_ - halfX(), z = k * dz_ - halfZ();
     const double out = std::max(std::abs(x) / halfX(), rows_ > 1 ? std::abs(z) / halfZ() : 0.0);
-    const double rim = std::max(0.0, out - kRimFrom) * halfX();
+    const double rim = what.ground == Ground::Plate ? 0 : std::max(0.0, out - kRimFrom) * halfX();
     std::uniform_real_distribution<double> any(-1, 1);
     switch (what.form) {
         case Form::Flat:
@@ -52,9 +52,26 @@ double Heights::form(const Case& what, int i, int k, std::mt19937& random) const
     return rim;
 }
 
+/// A box of 1 mm whose top has the slope of the heights.
 template <class S>
-Shape<S> Heights::shape(Ground kind) const {
+Shape<S> Heights::plate(Pose<S>& pose) const {
     using R = typename S::Real;
+    using V = typename S::Vec;
+    constexpr double kHalf = 0.5e-3;
+    double slopeX = 0, slopeZ = 0;
+    at(0, 0, slopeX, slopeZ);
+    const double angle = std::atan(slopeX);
+    pose.q = typename S::Rot(Eigen::AngleAxis<R>(static_cast<R>(angle), V::UnitZ()));
+    pose.p = rotate(pose.q, V(static_cast<R>(-kHalf) * V::UnitY()));
+    return Box<S>{
+        V(static_cast<R>(halfX() / std::cos(angle)), static_cast<R>(kHalf), static_cast<R>(halfZ()))};
+}
+
+template <class S>
+Shape<S> Heights::shape(Ground kind, Pose<S>& pose) const {
+    using R = typename S::Real;
+    if constexpr (S::dim == 3)
+        if (kind == Ground::Plate) return plate<S>(pose);
     const auto point = [this](int i, int k) {
         typename S::Vec p = S::Vec::Zero();
         p[0] = static_cast<R>(i * dx_ - halfX());
@@ -113,9 +130,9 @@ double Heights::at(double x, double z, double& slopeX, double& slopeZ) const {
     return vertex(a, b) + (low ? u : u - 1) * dx_ * slopeX + (low ? w : w - 1) * dz_ * slopeZ;
 }
 
-template Shape<Space2f> Heights::shape<Space2f>(Ground) const;
-template Shape<Space2d> Heights::shape<Space2d>(Ground) const;
-template Shape<Space3f> Heights::shape<Space3f>(Ground) const;
-template Shape<Space3d> Heights::shape<Space3d>(Ground) const;
+template Shape<Space2f> Heights::shape<Space2f>(Ground, Pose<Space2f>&) const;
+template Shape<Space2d> Heights::shape<Space2d>(Ground, Pose<Space2d>&) const;
+template Shape<Space3f> Heights::shape<Space3f>(Ground, Pose<Space3f>&) const;
+template Shape<Space3d> Heights::shape<Space3d>(Ground, Pose<Space3d>&) const;
 
 }  // namespace rigor::engine::lost

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Uneven ground as a triangle mesh, a height field or a chain, and its height by itself: the engine's own
+// Uneven ground as a triangle mesh, a height field or a chain, or a thin plate, and its height by itself: the engine's own
 // surface of the same heights is not used.
 #pragma once
 
@@ -19,8 +19,9 @@ class Heights {
     /// `half`: from the middle to the border [m].
     Heights(const Case& what, double half, std::mt19937& random);
 
+    /// `pose`: where the shape is to be.
     template <class S>
-    Shape<S> shape(Ground kind) const;
+    Shape<S> shape(Ground kind, Pose<S>& pose) const;
     /// Height of the ground over (x, z) [m], clamped to the border; z is 0 in 2D.
     double at(double x, double z) const {
         double slopeX = 0, slopeZ = 0;
@@ -34,6 +35,8 @@ class Heights {
 
   private:
     double at(double x, double z, double& slopeX, double& slopeZ) const;
+    template <class S>
+    Shape<S> plate(Pose<S>& pose) const;
     double form(const Case& what, int i, int k, std::mt19937& random) const;
     double vertex(int i, int k) const { return heights_[k * columns_ + i]; }
     int columns_ = 0, rows_ = 1;

@@ -16,6 +16,13 @@ namespace rigor::engine::lost {
 namespace {
 
 constexpr double kSpacing = 0.6;  ///< distance of the start positions, such that no bodies touch [m]
+constexpr double kBullet = 300;   ///< speed of bodies that are shot [m/s]
+constexpr int kBulletSteps = 3;   ///< after which all bodies that are shot have come to the ground
+
+constexpr const char* kGrounds[] = {"mesh", "field", "chain", "plate"};
+constexpr const char* kMotions[] = {"drop", "pile", "roll", "slide", "shoot"};
+constexpr const char* kForms[] = {"flat", "rough", "slope", "ridges", "slivers"};
+constexpr const char* kContinuous[] = {"none", "conservative_advancement", "speculative"};
 
 using Random = std::mt19937;
 double between(Random& random, double low, double high) {
@@ -67,7 +74,9 @@ class Rain {
         BodyDef<S> still;
         still.type = BodyType::Static;
         ground_ = world_.addBody(still);
-        world_.addShape(ground_, {heights_.template shape<S>(what.ground), {}, stuff_});
+        Pose<S> pose;
+        const Shape<S> ground = heights_.template shape<S>(what.ground, pose);
+        world_.addShape(ground_, {ground, pose, stuff_});
         for (int i = 0; i < what.bodies; ++i) add(i);
     }
 
@@ -107,7 +116,7 @@ class Rain {
         WorldDef<S> def;
         def.gravity[1] = R(-9.81);
         if (what.fast) preferSpeed(def);
-        if (what.continuous) def.continuousCollision = "conservative_advancement";
+        def.continuousCollision = kContinuous[static_cast<int>(what.continuous)];
         return def;
     }
 
@@ -148,6 +157,7 @@ class Rain {
             body.pose.q = S::Rot::fromAngle(any(3));
         }
         setMotion(body);
+        if (what_.motion == Motion::Shoot) aim(body);
         bodies_.push_back({world_.addBody(body), index, shapeName<S>(shape), radiusOf<S>(shape, m.center),
                            static_cast<double>(inscribedRadiusOf<S>(shape))});
         world_.addShape(bodies_.back().id, {shape, {}, stuff_});
@@ -169,12 +179,43 @@ class Rain {
             body.angularVelocity = any(spin);
     }
 
+    /// A shot from 2 to 12 m away (5 m are the way of a step), from a direction at most 80 degrees off the
+    /// vertical in which nothing is in the way.
+    void aim(BodyDef<S>& body) {
+        double steep = between(random_, 0, 80 * M_PI / 180);
+        const double turn = between(random_, -M_PI, M_PI), distance = between(random_, 2, 12);
+        V target = body.pose.p;
+        target[1] = static_cast<R>(heights_.at(xOf(target), zOf(target)));
+        const auto wayFor = [turn](double angle) {
+            const double out = std::sin(angle);
+            V way = V::Zero();
+            way[0] = static_cast<R>(S::dim == 2 ? std::copysign(out, turn) : out * std::cos(turn));
+            way[1] = static_cast<R>(-std::cos(angle));
+            if constexpr (S::dim == 3) way[2] = static_cast<R>(out * std::sin(turn));
+            return way;
+        };
+        while (!isFree(target, wayFor(steep), distance)) steep *= 0.7;
+        body.velocity = R(kBullet) * wayFor(steep);
+        body.pose.p = target - static_cast<R>(distance) * wayFor(steep);
+    }
+
+    /// True where the way to `target` is over the ground but for its last half metre.
+    bool isFree(const V& target, const V& way, double distance) const {
+        for (double d = 0.5; d <= distance; d += 0.05) {
+            const V x = target - static_cast<R>(d) * way;
+            if (static_cast<double>(x[1]) < heights_.at(xOf(x), zOf(x)) + 0.3) return way[1] < R(-0.99);
+        }
+        return true;
+    }
+    static double xOf(const V& p) { return static_cast<double>(p[0]); }
+    static double zOf(const V& p) { return S::dim == 3 ? static_cast<double>(p[S::dim - 1]) : 0; }
+
     /// Depth of the centre of mass under the ground [m].
     double depthOf(const Body& body, double& x, double& z) const {
         const Pose<S> pose = world_.pose(body.id);
         const V center = toWorld<S>(pose, world_.constants(body.id).centerOfMass);
-        x = static_cast<double>(center[0]);
-        z = S::dim == 3 ? static_cast<double>(center[S::dim - 1]) : 0;
+        x = xOf(center);
+        z = zOf(center);
         return heights_.depth(x, static_cast<double>(center[1]), z);
     }
 
@@ -183,6 +224,7 @@ class Rain {
         double x = 0, z = 0;
         const double depth = depthOf(body, x, z);
         if (!heights_.holds(x, z)) {
+            if (what_.motion == Motion::Shoot && step <= kBulletSteps) return;
             body.done = true;
             ++out.away;
         } else if (!(depth < 2 * body.radius)) {
@@ -221,10 +263,6 @@ class Rain {
     std::vector<Body> bodies_;
 };
 
-constexpr const char* kGrounds[] = {"mesh", "field", "chain"};
-constexpr const char* kMotions[] = {"drop", "pile", "roll", "slide"};
-constexpr const char* kForms[] = {"flat", "rough", "slope", "ridges", "slivers"};
-
 }  // namespace
 
 Outcome run(const Case& what, int follow) {
@@ -240,12 +278,16 @@ std::string describe(const Case& what) {
                   "duration=%g seed=%llu",
                   kGrounds[static_cast<int>(what.ground)], kMotions[static_cast<int>(what.motion)],
                   kForms[static_cast<int>(what.form)], what.squares, what.fast ? "fast" : "default",
-                  what.single ? "f32" : "f64", what.continuous ? "on" : "off", what.bodies, what.duration,
-                  static_cast<unsigned long long>(what.seed));
+                  what.single ? "f32" : "f64", kContinuous[static_cast<int>(what.continuous)], what.bodies,
+                  what.duration, static_cast<unsigned long long>(what.seed));
     return text;
 }
 
 void setGroundOfSeed(Case& what) {
+    if (what.ground == Ground::Plate) {
+        what.form = what.seed % 2 == 0 ? Form::Flat : Form::Slope;
+        return;
+    }
     constexpr double kSquares[] = {1, 0.3, 10, 0.1, 3};
     what.form = static_cast<Form>(what.seed % 5);
     what.squares = kSquares[what.seed / 5 % 5];

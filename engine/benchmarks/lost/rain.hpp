@@ -11,10 +11,12 @@
 
 namespace rigor::engine::lost {
 
-enum class Ground : std::uint8_t { Mesh, Field, Chain };
-/// Motion of the bodies: they fall from a height, fall into a heap, roll, or slide over the edges between
-/// triangles.
-enum class Motion : std::uint8_t { Drop, Pile, Roll, Slide };
+/// Plate: a box of 1 mm, flat or a slope, in place of a surface.
+enum class Ground : std::uint8_t { Mesh, Field, Chain, Plate };
+/// Motion of the bodies: they fall from a height, fall into a heap, roll, slide over the edges between
+/// triangles, or are shot at the ground from all sides at 300 m/s.
+enum class Motion : std::uint8_t { Drop, Pile, Roll, Slide, Shoot };
+enum class Continuous : std::uint8_t { None, ConservativeAdvancement, Speculative };
 /// Heights of the ground over the side c of its squares: none; random, up to 0.3 c; a slope of 20 degrees;
 /// ridges and gullies of 45 degrees; random over rectangles of 1 : 20, whose triangles are slivers.
 enum class Form : std::uint8_t { Flat, Rough, Slope, Ridges, Slivers };
@@ -23,10 +25,10 @@ struct Case {
     Ground ground = Ground::Mesh;
     Motion motion = Motion::Drop;
     Form form = Form::Flat;
-    bool fast = false;        ///< preferSpeed() in place of the default settings
-    bool single = false;      ///< f32
-    bool continuous = false;  ///< continuous_collision = conservative_advancement
-    double squares = 1;       ///< side of the ground's squares over the mean size of the bodies (0.3 m)
+    bool fast = false;    ///< preferSpeed() in place of the default settings
+    bool single = false;  ///< f32
+    Continuous continuous = Continuous::None;
+    double squares = 1;  ///< side of the ground's squares over the mean size of the bodies (0.3 m)
     int bodies = 1000;
     double duration = 3;  ///< [s], in steps of 1/60 s
     std::uint64_t seed = 0;
