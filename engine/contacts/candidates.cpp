@@ -146,17 +146,14 @@ void Candidates<S>::merge(const BodyArrays<S>& bodies, const ShapeSet<S>& shapes
     merge.passAll();
 }
 
-/// Pieces of a chain, mesh or height field near another shape, in ascending order.
+/// Names of the contacts that a chain, mesh or height field may have with a shape, in ascending order.
 template <class S>
 void Candidates<S>::findPieces(const ShapeSet<S>& shapes, std::uint32_t surface, std::uint32_t other,
                                Real distance) {
     pieces_.clear();
     const Aabb<S> box =
         boxOnSurface<S>(shapes.pose(surface), shapes[other].shape, shapes.pose(other), distance);
-    withSurface<S>(shapes[surface].shape, [&](const auto& data) {
-        data.query(box, [&](std::uint32_t piece) { pieces_.push_back(piece); });
-    });
-    std::sort(pieces_.begin(), pieces_.end());
+    addFacetNames<S>(shapes[surface].shape, box, pieces_);
 }
 
 template <class S>

@@ -167,7 +167,7 @@ void ContactUpdate<S>::query(Candidate<S>& candidate, Manifold<S>& manifold) con
         const bool surfaceA = isComposite<S>(shapes[a].shape);
         const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
         if (!surfaceA) flipManifold(manifold);  // its memory
-        collidePiece<S>(narrowPhase, shapes[surface].shape, candidate.piece, candidate.ridge,
+        collideFacet<S>(narrowPhase, shapes[surface].shape, candidate.piece, candidate.ridge,
                         shapes.pose(surface), shapes[other].shape, shapes.pose(other), distance, manifold);
         if (!surfaceA) flipManifold(manifold);
         candidate.separationBound = 0;  // a bound for this piece only

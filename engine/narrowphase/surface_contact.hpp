@@ -6,13 +6,15 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "engine/narrowphase/manifold.hpp"
 #include "engine/shapes/surface.hpp"
 
 namespace rigor::engine {
 
-/// True where x, in the frame of the surface, is in front of some of the pieces and behind others.
+/// True where x, in the frame of the surface, is in front of some of the pieces and behind others. Names of
+/// facets and their pieces are allowed.
 template <class S>
 bool facesDiffer(const Shape<S>& surface, std::span<const std::uint32_t> pieces, const typename S::Vec& x);
 
@@ -21,6 +23,20 @@ bool facesDiffer(const Shape<S>& surface, std::span<const std::uint32_t> pieces,
 /// its middle. Inner edges do not catch: see surface_contact.cpp.
 template <class S>
 void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t piece, bool ridge,
+                  const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
+                  typename S::Real speculative, Manifold<S>& out);
+
+/// Bit of the name of a contact with a piece of a facet that is not along the facet's normal.
+inline constexpr std::uint32_t kBorderPiece = 0x80000000u;
+
+/// Names of the contacts that a surface may have with a convex shape in `box` (frame of the surface), in
+/// ascending order: its facets by their lowest piece, and pieces at the border of a facet with kBorderPiece.
+template <class S>
+void addFacetNames(const Shape<S>& surface, const Aabb<S>& box, std::vector<std::uint32_t>& names);
+
+/// collidePiece() for such a name: one manifold for all pieces of a facet (facet_contact.cpp).
+template <class S>
+void collideFacet(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t name, bool ridge,
                   const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
                   typename S::Real speculative, Manifold<S>& out);
 

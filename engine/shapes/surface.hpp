@@ -10,12 +10,14 @@
 //     kNullIndex at an open border; in 2D side 0, 1 is the end at corner 0, 1 and the result the vertex
 //     beyond it;
 //   ring(vertex, visit): the vertices that share an edge with it (2D: the chain's next ones);
-//   query(box, visit), ray(o, d, limit, visit): pieces near; frame of the shape.
+//   query(box, visit), ray(o, d, limit, visit): pieces near; frame of the shape;
+//   facets: which pieces lie in one plane (kFacets: those of meshes and height fields).
 #pragma once
 
 #include <span>
 
 #include "engine/core/ids.hpp"
+#include "engine/shapes/facets.hpp"
 #include "engine/shapes/shape.hpp"
 #include "engine/shapes/static_tree.hpp"
 
@@ -43,7 +45,7 @@ HeightField<S> makeHeightField(int columns, int rows, typename S::Real dx, typen
 template <class S>
 struct ChainData {
     using Vec = typename S::Vec;
-    static constexpr bool kSolidBelow = false;
+    static constexpr bool kSolidBelow = false, kFacets = false;
     std::vector<Vec> vertices;
     bool loop = false;
     StaticTree<S> tree;
@@ -80,12 +82,13 @@ struct ChainData {
 template <class S>
 struct MeshData {
     using Vec = typename S::Vec;
-    static constexpr bool kSolidBelow = false;
+    static constexpr bool kSolidBelow = false, kFacets = true;
     std::vector<Vec> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::array<std::uint32_t, 3>> beyond;  ///< across() of each side
     std::vector<std::uint32_t> ringStart, rings;       ///< neighbours of vertex v: rings[ringStart[v] ...]
     StaticTree<S> tree;
+    Facets facets;
 
     std::uint32_t pieceCount() const { return static_cast<std::uint32_t>(triangles.size()); }
     const std::array<std::uint32_t, 3>& corners(std::uint32_t i) const { return triangles[i]; }
@@ -113,11 +116,12 @@ template <class S>
 struct HeightFieldData {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
-    static constexpr bool kSolidBelow = true;
+    static constexpr bool kSolidBelow = true, kFacets = true;
     int columns = 0, rows = 0;
     Real dx = 0, dz = 0;
     std::vector<Real> heights;
     Real lowest = 0, highest = 0, thickness = 0;
+    Facets facets;
 
     std::uint32_t pieceCount() const { return static_cast<std::uint32_t>(2 * (columns - 1) * (rows - 1)); }
     /// Counter-clockwise seen from +y.

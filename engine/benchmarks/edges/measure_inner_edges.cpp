@@ -8,6 +8,7 @@
 //         jitter=0|1                      each a list with commas
 //         duration=SECONDS (1)
 //         bound=NUMBER (1e-3)             greatest difference that is not counted
+//         settings=KEY=VALUE,...          settings of the world in place of the preset's
 //         follow=1                        writes every step
 // A line for each case; the exit code is 1 where a difference of position or velocity is above the bound, 2
 // for arguments that are not understood.
@@ -46,6 +47,7 @@ Arguments parse(int argc, char** argv) {
                   {"jitter", "0"},
                   {"duration", "1"},
                   {"bound", "1e-3"},
+                  {"settings", ""},
                   {"follow", "0"}};
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
@@ -127,6 +129,7 @@ void forCases(const Arguments& arguments, const std::vector<Key>& all, std::size
 int measure(const Arguments& arguments) {
     Case what;
     what.duration = std::stod(arguments.at("duration"));
+    what.settings = arguments.at("settings");
     const double bound = std::stod(arguments.at("bound"));
     int cases = 0, above = 0;
     forCases(arguments, keys(), 0, what, [&](const Case& one) {

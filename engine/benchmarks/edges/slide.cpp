@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "engine/benchmarks/settings_text.hpp"
 #include "engine/pipeline/world.hpp"
 #include "engine/shapes/surface.hpp"
 #include "engine/state/prefer_speed.hpp"
@@ -58,6 +59,12 @@ class Grid {
     double side_, way_;
     std::mt19937 random_;
 };
+
+template <class V>
+void print(const char* name, const V& v) {
+    std::printf(" %s", name);
+    for (int k = 0; k < v.size(); ++k) std::printf(" %.6f", static_cast<double>(v[k]));
+}
 
 template <class S>
 typename S::Rot aboutZ(double angle) {
@@ -141,10 +148,17 @@ class Slide {
     V velocity() const { return world_.velocity(body_); }
     typename S::Ang spin() const { return world_.angularVelocity(body_); }
     int pieces() const { return pieces_; }
-    std::size_t contacts() const {
+    void printContacts(const char* name) const {
         std::vector<ContactView<S>> contacts;
         world_.readContacts(contacts);
-        return contacts.size();
+        for (const ContactView<S>& c : contacts) {
+            std::printf("    %s", name);
+            print("point", c.pointB);
+            print("normal", c.normal);
+            print("friction", c.frictionImpulse);
+            std::printf(" separation %.6f impulse %.6f\n", static_cast<double>(c.separation),
+                        static_cast<double>(c.normalImpulse));
+        }
     }
 
   private:
@@ -152,6 +166,7 @@ class Slide {
         WorldDef<S> def;
         def.gravity[1] = static_cast<R>(-kGravity);
         if (what.fast) preferSpeed(def);
+        applySettings<S>(what.settings, def);
         return def;
     }
 
@@ -216,12 +231,6 @@ class Slide {
     int pieces_ = 0;
 };
 
-template <class V>
-void print(const char* name, const V& v) {
-    std::printf(" %s", name);
-    for (int k = 0; k < v.size(); ++k) std::printf(" %.6f", static_cast<double>(v[k]));
-}
-
 template <class S>
 Outcome runIn(const Case& what, bool follow) {
     Slide<S> pieces(what, true), plane(what, false);
@@ -244,12 +253,15 @@ Outcome runIn(const Case& what, bool follow) {
         out.velocity = std::max(out.velocity, faster / what.speed);
         out.spin = std::max(out.spin, std::sqrt(static_cast<double>(dotAng(turn, turn))));
         if (!follow) continue;
-        std::printf("step %d contacts %zu", step, pieces.contacts());
+        std::printf("step %d", step);
         print("x", pieces.position());
         print("plane", plane.position());
         print("v", pieces.velocity());
         print("plane", plane.velocity());
+        if constexpr (S::dim == 3) print("spin", pieces.spin());
         std::printf(" spin difference %.6f\n", std::sqrt(static_cast<double>(dotAng(turn, turn))));
+        pieces.printContacts("piece");
+        plane.printContacts("plane");
     }
     out.secondsPerStep = seconds / steps;
     return out;
@@ -274,7 +286,7 @@ std::string describe(const Case& what) {
                   kGrounds[static_cast<int>(what.ground)], kBodies[static_cast<int>(what.body)], what.angle,
                   what.slope, what.speed, what.squares, what.friction, what.jitter ? 1 : 0,
                   what.fast ? "fast" : "default", what.single ? "f32" : "f64", what.duration);
-    return text;
+    return what.settings.empty() ? text : text + std::string(" settings=") + what.settings;
 }
 
 }  // namespace rigor::engine::edges

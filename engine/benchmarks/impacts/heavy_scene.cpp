@@ -6,16 +6,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <random>
-#include <sstream>
-#include <stdexcept>
 #include <vector>
 
+#include "engine/benchmarks/settings_text.hpp"
 #include "engine/narrowphase/distance.hpp"
 #include "engine/pipeline/world.hpp"
 #include "engine/state/prefer_speed.hpp"
-#include "engine/state/settings.hpp"
 
 namespace rigor::engine::impacts {
 namespace {
@@ -24,38 +21,6 @@ constexpr double kBrick[] = {0.25, 0.125, 0.125};  ///< half extents of a brick 
 constexpr double kBall = 0.5;                      ///< radius of the ball [m]
 constexpr double kBallDensity = 4000;              ///< 2090 kg; a brick has 62 kg
 constexpr double kDrum = 0.4;                      ///< half the distance of bodies in the tumbler [m]
-
-/// A setting as a world has it, overridden where `values` has its key.
-struct Overrides {
-    std::map<std::string, std::string> values;
-    template <class Member>
-    void set(const char* key, Member& member) const {
-        const auto found = values.find(key);
-        if (found == values.end()) return;
-        if constexpr (std::is_same_v<Member, std::string>) {
-            member = found->second;
-        } else {
-            member = static_cast<Member>(std::stod(found->second));
-        }
-    }
-};
-
-template <class S>
-void applySettings(const std::string& text, WorldDef<S>& def) {
-    Overrides overrides;
-    std::istringstream stream(text);
-    for (std::string word; std::getline(stream, word, ',');) {
-        const std::size_t sign = word.find('=');
-        if (sign == std::string::npos) throw std::invalid_argument("not KEY=VALUE: " + word);
-        setting(word.substr(0, sign));
-        overrides.values[word.substr(0, sign)] = word.substr(sign + 1);
-    }
-#define CHOICE(member, key, byDefault, help) overrides.set(key, def.member);
-#define INTEGER(member, key, byDefault, min, max, help) overrides.set(key, def.member);
-#define REAL(member, key, byDefault, min, max, help) overrides.set(key, def.member);
-#define SWITCH(member, key, byDefault, help) overrides.set(key, def.member);
-#include "engine/state/settings.def"
-}
 
 template <class S>
 class HeavyScene {

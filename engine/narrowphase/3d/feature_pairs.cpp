@@ -156,10 +156,28 @@ R selectionNoise(const FeaturePair<R>& m, const SupportFeature<R>& ref, const Su
     return discs ? std::max(R(2) * kRimNoise<R> * smallerSide(ref, inc), m.tolerance) : m.tolerance;
 }
 
-/// A face against a face or a segment.
+/// What a vertex may be beyond an inner side and still count as over the face: rounding must not lose it
+/// between two faces.
+template <class R>
+R innerSlack(const SupportFeature<R>& ref) {
+    R size = 0;
+    for (int i = 0; i < ref.count; ++i) size = std::max(size, ref.at[i].cwiseAbs().maxCoeff());
+    return R(4) * kRounding<R> * size;
+}
+
+/// True where a vertex of the clipped polygon is on inner sides of the reference face alone (bit i: side i):
+/// it is no vertex of what the incident feature has in common with the facet.
+template <class R>
+bool isInner(const FeatureVertex<R>& c, unsigned inner) {
+    const bool inRef = c.in >= kRefSide, outRef = c.out >= kRefSide;
+    if (!inRef && !outRef) return false;
+    return (!inRef || inner >> (c.in - kRefSide) & 1u) && (!outRef || inner >> (c.out - kRefSide) & 1u);
+}
+
+/// A face against a face or a segment. `inner`: sides of the reference face beyond which its plane goes on.
 template <class R>
 void clipFeatures(const FeaturePair<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc,
-                  bool refIsA, Manifold<S3<R>>& out) {
+                  bool refIsA, Manifold<S3<R>>& out, unsigned inner = 0) {
     const Vec3<R> outward = refIsA ? m.normal : Vec3<R>(-m.normal);
     FeaturePolygon<R> buffers[2];
     int now = 0;
@@ -169,7 +187,9 @@ void clipFeatures(const FeaturePair<R>& m, const SupportFeature<R>& ref, const S
     for (int i = 0; i < ref.count && buffers[now].count > 0; ++i) {
         const Vec3<R>& p = ref.at[i];
         const Vec3<R>& q = ref.at[(i + 1) % ref.count];
-        clip<R>(buffers[now], closed, (q - p).cross(outward), p, kRefSide + i, buffers[1 - now]);
+        const Vec3<R> side = (q - p).cross(outward);
+        const Vec3<R> on = inner >> i & 1u ? Vec3<R>(p + innerSlack<R>(ref) * side.normalized()) : p;
+        clip<R>(buffers[now], closed, side, on, kRefSide + i, buffers[1 - now]);
         now = 1 - now;
     }
     const FeaturePolygon<R>& polygon = buffers[now];
@@ -179,7 +199,7 @@ void clipFeatures(const FeaturePair<R>& m, const SupportFeature<R>& ref, const S
     int found = 0;
     R lowest = std::numeric_limits<R>::max();
     for (int i = 0; i < polygon.count; ++i)
-        if (const R h = height(polygon[i].x); h <= m.speculative) {
+        if (const R h = height(polygon[i].x); h <= m.speculative && !isInner(polygon[i], inner)) {
             near[found++] = i;
             lowest = std::min(lowest, h);
         }
@@ -320,7 +340,7 @@ void collideFeatures(const Shape<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, c
 template <class R>
 void collideAlong(const Triangle<Space<R, 3>>& piece, bool front, const Shape<Space<R, 3>>& convex,
                   const Pose<Space<R, 3>>& X, typename Space<R, 3>::Real speculative,
-                  Manifold<Space<R, 3>>& out) {
+                  Manifold<Space<R, 3>>& out, unsigned innerSides) {
     using S = Space<R, 3>;
     const Vec3<R> up = (piece.v[1] - piece.v[0]).cross(piece.v[2] - piece.v[0]).normalized();
     const Vec3<R> n = front ? up : Vec3<R>(-up);
@@ -330,12 +350,21 @@ void collideAlong(const Triangle<Space<R, 3>>& piece, bool front, const Shape<Sp
     featuresAlong(m, fa, fb);
     out.count = 0;
     out.normal = n;
+    // Sides of the feature, which goes round the other way seen from behind.
+    unsigned inner = 0;
+    for (std::size_t i = 0; i < 3 && innerSides != 0; ++i) {
+        const int from = fa.index[i], to = fa.index[(i + 1) % 3], side = (from + 1) % 3 == to ? from : to;
+        inner |= (innerSides >> side & 1u) << i;
+    }
     if (fb.count >= 2) {
-        clipFeatures(m, fa, fb, true, out);
+        clipFeatures(m, fa, fb, true, out, inner);
     } else if (fb.count == 1) {
         const Vec3<R>& x = fb.at[0];
-        for (std::size_t i = 0; i < 3; ++i)
-            if ((fa.at[(i + 1) % 3] - fa.at[i]).cross(n).dot(x - fa.at[i]) > 0) return;
+        const R slack = inner == 0 ? R(0) : innerSlack(fa);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3<R> side = (fa.at[(i + 1) % 3] - fa.at[i]).cross(n);
+            if (side.dot(x - fa.at[i]) > (inner >> i & 1u ? slack * side.norm() : R(0))) return;
+        }
         const R s = n.dot(x - fa.at[0]);
         if (s <= speculative) addPoint<S>(out, x - s * n, x, s, vertexFeature(false, fb.index[0]));
     }
@@ -343,7 +372,7 @@ void collideAlong(const Triangle<Space<R, 3>>& piece, bool front, const Shape<Sp
 
 #define ALONG(S)                                                                                            \
     template void collideAlong<S::Real>(const Triangle<S>&, bool, const Shape<S>&, const Pose<S>&, S::Real, \
-                                        Manifold<S>&);
+                                        Manifold<S>&, unsigned);
 ALONG(Space3f)
 ALONG(Space3d)
 #undef ALONG

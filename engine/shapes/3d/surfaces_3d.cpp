@@ -18,6 +18,36 @@ typename S::Real thickness(const Triangle<S>& t, typename S::Real& longest) {
     return (t.v[1] - t.v[0]).cross(t.v[2] - t.v[0]).norm() / longest;
 }
 
+/// Sine of the angle up to which two triangles are in one plane: the normal of a triangle of 3 cm ten metres
+/// from the origin is good to half of that where its vertices are single precision.
+template <class R>
+inline constexpr R kSamePlane = R(1e-4);
+
+/// Facets of a mesh or field whose piece i has the pieces neighbours(i) beyond its sides.
+template <class S, class Data, class Neighbours>
+Facets facetsOf(const Data& data, const Neighbours& neighbours) {
+    using R = typename S::Real;
+    using Vec = typename S::Vec;
+    const auto normal = [&](std::uint32_t piece) {
+        const Triangle<S> t = data.piece(piece);
+        return Vec((t.v[1] - t.v[0]).cross(t.v[2] - t.v[0]).normalized());
+    };
+    const auto flat = [&](std::uint32_t piece, int side) {
+        const std::uint32_t w = data.across(piece, side);
+        if (w == kNullIndex) return false;
+        const Triangle<S> t = data.piece(piece);
+        const auto k = static_cast<std::size_t>(side);
+        const Vec n = normal(piece), d = data.point(w) - t.v[k];
+        const Vec outward = (t.v[(k + 1) % 3] - t.v[k]).cross(n).normalized();
+        const R out = outward.dot(d);
+        return out > 0 && std::abs(n.dot(d)) <= kSamePlane<R> * out;
+    };
+    const auto parallel = [&](std::uint32_t a, std::uint32_t b) {
+        return std::abs(normal(a).dot(normal(b))) > R(1) - R(1e-6);
+    };
+    return findFacets(data.pieceCount(), neighbours, flat, parallel);
+}
+
 /// Neighbours across edges and around vertices. An edge with more than two triangles has none.
 template <class S>
 void connect(MeshData<S>& mesh) {
@@ -33,6 +63,7 @@ void connect(MeshData<S>& mesh) {
             sides[{std::min(a, b), std::max(a, b)}].push_back({t, k});
         }
     mesh.beyond.assign(mesh.triangles.size(), {kNullIndex, kNullIndex, kNullIndex});
+    std::vector<std::array<std::uint32_t, 3>> neighbours = mesh.beyond;
     std::vector<std::vector<std::uint32_t>> rings(mesh.vertices.size());
     for (const auto& [edge, both] : sides) {
         rings[edge.first].push_back(edge.second);
@@ -41,6 +72,7 @@ void connect(MeshData<S>& mesh) {
         for (std::size_t i = 0; i < 2; ++i) {
             const Side &here = both[i], &there = both[1 - i];
             mesh.beyond[here.triangle][here.side] = mesh.triangles[there.triangle][(there.side + 2) % 3];
+            neighbours[here.triangle][here.side] = there.triangle;
         }
     }
     mesh.ringStart.push_back(0);
@@ -48,6 +80,21 @@ void connect(MeshData<S>& mesh) {
         mesh.rings.insert(mesh.rings.end(), ring.begin(), ring.end());
         mesh.ringStart.push_back(static_cast<std::uint32_t>(mesh.rings.size()));
     }
+    mesh.facets = facetsOf<S>(mesh, [&](std::uint32_t piece) { return neighbours[piece]; });
+}
+
+/// Pieces beyond the sides of a piece of a height field; the order of its sides is that of across().
+template <class S>
+std::array<std::uint32_t, 3> neighboursOf(const HeightFieldData<S>& field, std::uint32_t piece) {
+    const int cell = static_cast<int>(piece / 2), i = cell % (field.columns - 1),
+              k = cell / (field.columns - 1);
+    const bool first = piece % 2 == 0;
+    const auto other = [&](int column, int row) {
+        if (column < 0 || column >= field.columns - 1 || row < 0 || row >= field.rows - 1) return kNullIndex;
+        return static_cast<std::uint32_t>(2 * (row * (field.columns - 1) + column) + (first ? 1 : 0));
+    };
+    const int step = first ? -1 : 1;
+    return {other(i + step, k), other(i, k), other(i, k + step)};
 }
 
 }  // namespace
@@ -105,6 +152,7 @@ HeightField<S> makeHeightField(int columns, int rows, typename S::Real dx, typen
     data->lowest = *std::min_element(heights.begin(), heights.end());
     data->highest = *std::max_element(heights.begin(), heights.end());
     data->thickness = thickness;
+    data->facets = facetsOf<S>(*data, [&](std::uint32_t piece) { return neighboursOf<S>(*data, piece); });
     return {data};
 }
 
