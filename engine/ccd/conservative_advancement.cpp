@@ -16,6 +16,7 @@
 //  4. The impacts of both bodies on their new ways are looked for, and so on from 3. Other bodies keep
 //     their ways. After kMaxImpacts in a step a body stays where it is until the step ends: it keeps its
 //     velocity and loses the time.
+// Chains, meshes and height fields are met piece by piece (surface_impact.cpp).
 // A pair that touches already when the search begins, or has contact rows in this step, is left to the
 // solver: its impact counts only if the shapes would otherwise end up deeper in each other than a quarter of
 // their thickness. Bodies that are slow for their size are left to the contacts alone, so scenes without fast
@@ -35,6 +36,7 @@
 
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/ccd/impact.hpp"
+#include "engine/ccd/surface_impact.hpp"
 #include "engine/ccd/time_of_impact.hpp"
 #include "engine/ccd/traits.hpp"
 #include "engine/state/sleep.hpp"
@@ -185,7 +187,9 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         const MovingShape<S> a = moving(world, c.a, time), b = moving(world, c.b, time);
         const Real rest = world.h - time;
         if (!mayPassUnseen<S>(a, b, rest)) return;
-        c.impact = timeOfImpact<S>(a, b, rest, hasRows<S>(world.contacts.list(), c.a, c.b));
+        const bool known = hasRows<S>(world.contacts.list(), c.a, c.b);
+        c.impact = SurfaceImpact<S>::isOne(a, b) ? surfaceImpact_.find(a, b, rest, known, world.narrowPhase)
+                                                 : timeOfImpact<S>(a, b, rest, known);
         if (!c.impact.hit) return;
         c.impact.time += time;
         c.impact.exact += time;
@@ -201,7 +205,11 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         Manifold<S> manifold;
         TimeOfImpact<S> now = hit.impact;
         now.time = 0;
-        collideAt<S>(moving(world, hit.a, t), moving(world, hit.b, t), now, world.narrowPhase, manifold);
+        const MovingShape<S> shapeA = moving(world, hit.a, t), shapeB = moving(world, hit.b, t);
+        if (SurfaceImpact<S>::isOne(shapeA, shapeB))
+            surfaceImpact_.collideAt(shapeA, shapeB, now, world.narrowPhase, manifold);
+        else
+            collideAt<S>(shapeA, shapeB, now, world.narrowPhase, manifold);
         // The rest of its island follows when the next step finds it moving.
         for (const std::uint32_t i : {a, b}) wakeBody(bodies, i);
         for (const std::uint32_t i : {a, b}) goTo(world, i, t);
@@ -265,6 +273,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
     std::vector<Aabb<S>> boxes_;       ///< swept, by shape
     std::vector<Candidate> candidates_;
     ImpactSolver<S> impactSolver_;
+    SurfaceImpact<S> surfaceImpact_;
 };
 
 }  // namespace

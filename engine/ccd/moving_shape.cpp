@@ -44,6 +44,8 @@ typename S::Real inscribedRadiusOf(const Shape<S>& shape) {
                 return std::numeric_limits<Real>::max();
             } else if constexpr (std::is_same_v<Kind, Hull<S>>) {
                 return hullInnerRadius(*s.data);
+            } else if constexpr (kComposite<Kind>) {
+                return 0;
             } else {
                 // Cylinders and cones: 0.4 of the shortest half edge of the box around is less than their
                 // inscribed spheres have down to cones of aspect 1:1.5, and the right order beyond.

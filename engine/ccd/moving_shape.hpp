@@ -13,7 +13,7 @@
 namespace rigor::engine {
 
 /// A sphere of this radius fits into the shape (rounded down where there is no closed form) [m]; the largest
-/// number there is for half-spaces, which nothing passes through.
+/// number there is for half-spaces, which nothing passes through; 0 for surfaces, which have no thickness.
 template <class S>
 typename S::Real inscribedRadiusOf(const Shape<S>& shape);
 

@@ -24,12 +24,17 @@
 // ends deeper in the other body than a quarter of their thickness, both go back to where they touch, with the
 // velocities they have.
 //
+// Chains, meshes and height fields have no speculative contacts. The ways of fast shapes are checked against
+// them after the move, too (surface_impact.cpp): a shape that would pass goes back to where it has just
+// touched, and the contacts of the next step see to the impact.
+//
 // Cost: two times of impact per fast pair that collides. Limits: the rest of the step after the impact is
 // lost (the body is up to |v| h behind); a body that another contact deflects is not looked at again in the
 // same step and may then pass a second thin wall; a body that an impact of this step makes fast is not seen;
 // friction acts with the step's begin; explicit_euler moves bodies before the row acts on them, so there it
 // stops nothing.
 #include "engine/ccd/continuous_collision.hpp"
+#include "engine/ccd/surface_impact.hpp"
 #include "engine/ccd/time_of_impact.hpp"
 #include "engine/ccd/traits.hpp"
 
@@ -121,10 +126,33 @@ class Speculative final : public ContinuousCollision<S> {
                 world.motion.replaceUsed(i, {Vec(share * v.v), typename S::Ang(share * v.w)});
             }
         }
+        for (const std::uint32_t surface : shapes.surfaces())
+            for (std::uint32_t i = 0; i < shapes.size(); ++i)
+                if (shapes.movable()[i]) stopAtSurface(world, surface, i, moved(surface), moved(i));
         return true;
     }
 
   private:
+    /// Takes a shape that has passed a surface back along its way.
+    void stopAtSurface(const MovedWorld<S>& world, std::uint32_t surface, std::uint32_t shape,
+                       const MovingShape<S>& still, const MovingShape<S>& moving) {
+        const std::uint32_t body = world.contacts.shapes()[shape].body;
+        if (!mayPassUnseen<S>(still, moving, world.h)) return;
+        if (!world.contacts.filter().mayCollide(world.bodies, world.contacts.shapes()[surface].body, body))
+            return;
+        if (!sweptBox<S>(moving, world.h).overlaps(world.contacts.shapes().box(surface))) return;
+        const bool known = hasRows<S>(world.contacts.list(), surface, shape);
+        const TimeOfImpact<S> impact = surfaceImpact_.find(still, moving, world.h, known, world.narrowPhase);
+        if (!impact.hit) return;
+        // A little overlap: contacts that bounce do so once they touch.
+        const Real deep = Real(1e-3) * moving.inscribedRadius / impact.approach;
+        const Real time = std::min(world.h, impact.exact + deep), share = time / world.h;
+        world.bodies.pose[body] = movedPose<S>(starts_[body], moving.velocity, time);
+        world.motion.replaceUsed(
+            body, {Vec(share * moving.velocity.v), typename S::Ang(share * moving.velocity.w)});
+    }
+
+    SurfaceImpact<S> surfaceImpact_;
     Real h_ = 0;
     std::vector<Pose<S>> starts_;         ///< start poses of the (sub-)step
     std::vector<MovingShape<S>> moving_;  ///< motion of each shape by dense shape index

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A convex shape on a facet: the neighbouring triangles of a mesh or height field that lie in one plane
-// (shapes/facets.hpp). Its contact is one manifold, that of the shape on the plane, however the facet is cut:
+// A convex shape on a facet: the neighbouring triangles of a mesh or height field that lie in one plane, the
+// segments of a chain that lie on one line (shapes/facets.hpp). Its contact is one manifold, that of the shape
+// on the plane, however the facet is cut:
 //
-//   1. Contact points of the shape with each triangle near, along the facet's normal (surface_piece.hpp), but
-//      for those on sides between two triangles of the facet: the shape's corners over the facet, the
+//   1. Contact points of the shape with each piece near, along the facet's normal (surface_piece.hpp), but
+//      for those on sides between two pieces of the facet: the shape's corners over the facet, the
 //      crossings of its edges with the facet's border, and the corners of the border are left.
-//   2. A triangle whose border is near takes part as far as the rules of surface_piece.hpp find it along its
+//   2. A piece whose border is near takes part as far as the rules of surface_piece.hpp find it along its
 //      normal. What they find along another normal (at the border of a table, over a ridge) is a contact of
-//      that triangle alone.
+//      that piece alone.
 //   3. Of more points than a manifold has room for those are kept that span it (reducePoints).
 // So a box that slides over small triangles has the four points of its corners, which persist; friction acts
 // at the same centers of pressure as on a plane, and the cost for the solver is that of a plane. Without it
 // friction had the wrong center whenever a triangle began or ended under the shape, which turned sliding
 // shapes, by 0.4 rad/s in a step, under solvers that use the impulses of the last step.
 //
-// Triangles that have the plane to themselves are met as before, one by one.
+// Pieces that have the plane to themselves are met as before, one by one.
 #include "engine/narrowphase/surface_contact.hpp"
 #include "engine/narrowphase/surface_piece.hpp"
 
 namespace rigor::engine {
 namespace {
 
-/// Points of a facet's triangles, each once.
+/// Points of a facet's pieces, each once.
 template <class S>
 class FacetPoints {
   public:
@@ -40,7 +41,7 @@ class FacetPoints {
         }
     }
 
-    /// The points of the contact, in the order of their names: the order of the triangles does not matter.
+    /// The points of the contact, in the order of their names: the order of the pieces does not matter.
     void emit(Manifold<S>& out) {
         if (count_ > S::maxManifoldPoints) reduce(out.normal, out.memory);
         std::sort(points_.begin(), points_.begin() + count_,
@@ -52,14 +53,15 @@ class FacetPoints {
   private:
     static constexpr int kRoom = 64;
 
-    /// A corner of the shape. Other names are of sides and corners of one triangle.
+    /// A corner of the shape, or the point of a circle. Other names are of sides and corners of one piece.
     static bool onShape(const ManifoldPoint<S>& point) {
-        return point.feature >> 30 == static_cast<std::uint32_t>(FeatureKind::VertexB);
+        const std::uint32_t kind = point.feature >> 30;
+        return kind == 0 || kind == static_cast<std::uint32_t>(FeatureKind::VertexB);
     }
     static std::uint32_t nameIn(std::uint32_t piece, std::uint32_t feature) {
         return (feature & 0xc0000000u) | ((feature ^ piece * 2654435761u) & 0x3fffffffu);
     }
-    /// A corner over the side between two triangles, or a corner of the border of both.
+    /// A corner over the side between two pieces, or a corner of the border of both.
     bool isKnown(const ManifoldPoint<S>& point) const {
         const Real near = Real(16) * kRounding<Real> * point.pointA.cwiseAbs().maxCoeff();
         for (int i = 0; i < count_; ++i) {
@@ -96,12 +98,12 @@ class FacetPoints {
     int count_ = 0;
 };
 
-/// The shape over a facet: the plane is that of the first of its triangles that is near.
+/// The shape over a facet: the plane is that of the first of its pieces that is near.
 template <class S, class Data>
 struct OverFacet {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
-    Vec normal = Vec::Zero();  ///< towards the shape's middle; zero: no triangle was near
+    Vec normal = Vec::Zero();  ///< towards the shape's middle; zero: no piece was near
     Real lowest = 0;           ///< separation of the lowest point
     bool deep = false, under = false;
 
@@ -117,9 +119,9 @@ struct OverFacet {
 };
 
 template <class S, class Collide, class Data>
-void collideTriangles(Collide collide, const Data& data, std::uint32_t facet, bool ridge, const Pose<S>& Xs,
-                      const Shape<S>& convex, const Pose<S>& Xc, typename S::Real speculative,
-                      Manifold<S>& out) {
+void collidePieces(Collide collide, const Data& data, std::uint32_t facet, bool ridge, const Pose<S>& Xs,
+                   const Shape<S>& convex, const Pose<S>& Xc, typename S::Real speculative,
+                   Manifold<S>& out) {
     using R = typename S::Real;
     using V = typename S::Vec;
     const Placed<S> placed{convex, relativePose<S>(Xs, Xc)};
@@ -167,11 +169,8 @@ void collideFacet(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, st
                              Manifold<S>& m) { narrowPhase.collide(a, Xa, b, Xb, distance, m); };
     const std::uint32_t piece = name & ~kBorderPiece;
     withSurface<S>(surface, [&](const auto& data) {
-        using Data = std::decay_t<decltype(data)>;
-        if constexpr (Data::kFacets)
-            if (name == piece && data.facets.innerSides(piece) != 0)
-                return collideTriangles<S>(collide, data, piece, ridge, Xsurface, convex, Xconvex,
-                                           speculative, out);
+        if (name == piece && data.facets.innerSides(piece) != 0)
+            return collidePieces<S>(collide, data, piece, ridge, Xsurface, convex, Xconvex, speculative, out);
         const PieceContact found =
             collideWith<S>(collide, data, piece, ridge, Xsurface, convex, Xconvex, speculative, out);
         if (name != piece && found != PieceContact::OwnNormal) out.count = 0;
@@ -181,15 +180,10 @@ void collideFacet(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, st
 template <class S>
 void addFacetNames(const Shape<S>& surface, const Aabb<S>& box, std::vector<std::uint32_t>& names) {
     withSurface<S>(surface, [&](const auto& data) {
-        using Data = std::decay_t<decltype(data)>;
         data.query(box, [&](std::uint32_t piece) {
-            if constexpr (Data::kFacets) {
-                names.push_back(data.facets.of(piece));
-                if (data.facets.innerSides(piece) != 0 && isBorderNear<S>(data, piece, box))
-                    names.push_back(piece | kBorderPiece);
-            } else {
-                names.push_back(piece);
-            }
+            names.push_back(data.facets.of(piece));
+            if (data.facets.innerSides(piece) != 0 && isBorderNear<S>(data, piece, box))
+                names.push_back(piece | kBorderPiece);
         });
     });
     std::sort(names.begin(), names.end());

@@ -61,12 +61,12 @@ void collideFeatures(const Shape<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, c
 
 /// Contact points of a convex shape with a piece of a surface along the piece's normal: what of the shape's
 /// supporting feature is over the piece. `front`: on the side of the normal. A is the piece; X poses the
-/// shape in its frame, in which `out` is filled. `innerSides` (bit k: side k): beyond these the plane of the
+/// shape in its frame, in which `out` is filled. `innerSides` (bit k: side or end k): beyond these the plane of the
 /// piece goes on; points that are on them alone are left out, they are no corners of the contact.
 template <class R>
 void collideAlong(const Segment<Space<R, 2>>& piece, bool front, const Shape<Space<R, 2>>& convex,
                   const Pose<Space<R, 2>>& X, typename Space<R, 2>::Real speculative,
-                  Manifold<Space<R, 2>>& out);
+                  Manifold<Space<R, 2>>& out, unsigned innerSides = 0);
 template <class R>
 void collideAlong(const Triangle<Space<R, 3>>& piece, bool front, const Shape<Space<R, 3>>& convex,
                   const Pose<Space<R, 3>>& X, typename Space<R, 3>::Real speculative,

@@ -225,13 +225,14 @@ PieceContact collideWith(Collide collide, const Data& data, std::uint32_t index,
     return PieceContact::Along;
 }
 
-/// True where a side of the piece that is no inner side of its facet is in reach of the box.
+/// True where a side (end) of the piece that is no inner side of its facet is in reach of the box.
 template <class S, class Data>
 bool isBorderNear(const Data& data, std::uint32_t index, const Aabb<S>& box) {
     const auto corners = data.corners(index);
     for (std::size_t k = 0; k < corners.size(); ++k) {
         if (data.facets.innerSides(index) >> k & 1u) continue;
-        const typename S::Vec a = data.point(corners[k]), b = data.point(corners[(k + 1) % corners.size()]);
+        const typename S::Vec a = data.point(corners[k]),
+                              b = S::dim == 2 ? a : data.point(corners[(k + 1) % corners.size()]);
         if (box.overlaps(Aabb<S>{a.cwiseMin(b), a.cwiseMax(b)})) return true;
     }
     return false;

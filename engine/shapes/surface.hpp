@@ -11,7 +11,7 @@
 //     beyond it;
 //   ring(vertex, visit): the vertices that share an edge with it (2D: the chain's next ones);
 //   query(box, visit), ray(o, d, limit, visit): pieces near; frame of the shape;
-//   facets: which pieces lie in one plane (kFacets: those of meshes and height fields).
+//   facets: which pieces lie in one plane.
 #pragma once
 
 #include <span>
@@ -45,10 +45,11 @@ HeightField<S> makeHeightField(int columns, int rows, typename S::Real dx, typen
 template <class S>
 struct ChainData {
     using Vec = typename S::Vec;
-    static constexpr bool kSolidBelow = false, kFacets = false;
+    static constexpr bool kSolidBelow = false;
     std::vector<Vec> vertices;
     bool loop = false;
     StaticTree<S> tree;
+    Facets facets;
 
     std::uint32_t pieceCount() const { return static_cast<std::uint32_t>(vertices.size() - (loop ? 0 : 1)); }
     std::array<std::uint32_t, 2> corners(std::uint32_t i) const { return {i, next(i)}; }
@@ -82,7 +83,7 @@ struct ChainData {
 template <class S>
 struct MeshData {
     using Vec = typename S::Vec;
-    static constexpr bool kSolidBelow = false, kFacets = true;
+    static constexpr bool kSolidBelow = false;
     std::vector<Vec> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::array<std::uint32_t, 3>> beyond;  ///< across() of each side
@@ -116,7 +117,7 @@ template <class S>
 struct HeightFieldData {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
-    static constexpr bool kSolidBelow = true, kFacets = true;
+    static constexpr bool kSolidBelow = true;
     int columns = 0, rows = 0;
     Real dx = 0, dz = 0;
     std::vector<Real> heights;

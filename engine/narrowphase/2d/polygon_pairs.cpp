@@ -350,12 +350,18 @@ void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, cons
 }
 
 template <class R>
-void collideAlong(const Segment<Space<R, 2>>& piece, bool front, const Shape<Space<R, 2>>& convex,
+void collideAlong(const Segment<Space<R, 2>>& segment, bool front, const Shape<Space<R, 2>>& convex,
                   const Pose<Space<R, 2>>& X, typename Space<R, 2>::Real speculative,
-                  Manifold<Space<R, 2>>& out) {
+                  Manifold<Space<R, 2>>& out, unsigned innerSides) {
     using S = Space<R, 2>;
     out.count = 0;
     Storage<R> store, storeConvex;
+    // Rounding must not lose a corner between two segments: inner ends reach a little further.
+    Segment<S> piece = segment;
+    const R size = std::max(segment.a.cwiseAbs().maxCoeff(), segment.b.cwiseAbs().maxCoeff());
+    const Vec2<R> further = R(4) * kRounding<R> * size * (segment.b - segment.a).normalized();
+    if (innerSides & 1u) piece.a -= further;
+    if (innerSides & 2u) piece.b += further;
     const PolygonView<R> ref = view<R>(piece, store);
     const int edge = front ? 1 : 0;
     out.normal = ref.normals[edge];
@@ -382,7 +388,9 @@ void collideAlong(const Segment<Space<R, 2>>& piece, bool front, const Shape<Spa
     for (int i = 0; i < out.count; ++i) {
         const ManifoldPoint<S>& p = out.points[i];
         const R slack = kRounding<R> * length, t = along.dot(p.pointB - piece.a);
-        if (t >= -slack && t <= length + slack) out.points[kept++] = p;
+        const bool inner = (p.feature == vertexFeature(true, 0) && innerSides & 1u) ||
+                           (p.feature == vertexFeature(true, 1) && innerSides & 2u);
+        if (t >= -slack && t <= length + slack && !inner) out.points[kept++] = p;
     }
     out.count = kept;
 }
@@ -412,7 +420,7 @@ PAIR(Hull, Segment)
     template void collidePair<S::Real>(const Sphere<S>&, const Pose<S>&, const Segment<S>&, const Pose<S>&, \
                                        S::Real, Manifold<S>&);                                              \
     template void collideAlong<S::Real>(const Segment<S>&, bool, const Shape<S>&, const Pose<S>&, S::Real,  \
-                                        Manifold<S>&);
+                                        Manifold<S>&, unsigned);
 INSTANTIATE(Space2f)
 INSTANTIATE(Space2d)
 #undef INSTANTIATE

@@ -4,6 +4,44 @@
 #include "engine/shapes/surface.hpp"
 
 namespace rigor::engine {
+namespace {
+
+/// Sine of the angle up to which two segments are on one line, as of triangles (3d/surfaces_3d.cpp).
+template <class R>
+inline constexpr R kSameLine = R(1e-4);
+
+template <class S>
+Facets facetsOf(const ChainData<S>& chain) {
+    using R = typename S::Real;
+    const auto along = [&](std::uint32_t piece) {
+        const Segment<S> s = chain.piece(piece);
+        return typename S::Vec((s.b - s.a).normalized());
+    };
+    const std::uint32_t last = chain.pieceCount() - 1;
+    const auto neighbours = [&](std::uint32_t piece) {
+        const std::uint32_t open = kNullIndex;
+        return std::array<std::uint32_t, 3>{piece > 0    ? piece - 1
+                                            : chain.loop ? last
+                                                         : open,
+                                            piece < last ? piece + 1
+                                            : chain.loop ? 0
+                                                         : open,
+                                            open};
+    };
+    const auto flat = [&](std::uint32_t piece, int end) {
+        const Segment<S> s = chain.piece(piece);
+        const typename S::Vec out = end == 0 ? typename S::Vec(-along(piece)) : along(piece);
+        const typename S::Vec d = chain.point(chain.across(piece, end)) - (end == 0 ? s.a : s.b);
+        const R ahead = out.dot(d);
+        return ahead > 0 && std::abs(cross(out, d)) <= kSameLine<R> * ahead;
+    };
+    const auto parallel = [&](std::uint32_t a, std::uint32_t b) {
+        return along(a).dot(along(b)) > R(1) - R(1e-6);
+    };
+    return findFacets(chain.pieceCount(), neighbours, flat, parallel);
+}
+
+}  // namespace
 
 template <class S>
 Chain<S> makeChain(std::span<const typename S::Vec> vertices, bool loop) {
@@ -28,6 +66,7 @@ Chain<S> makeChain(std::span<const typename S::Vec> vertices, bool loop) {
         boxes.push_back({s.a.cwiseMin(s.b), s.a.cwiseMax(s.b)});
     }
     data->tree.build(boxes);
+    data->facets = facetsOf<S>(*data);
     return {data};
 }
 
