@@ -137,7 +137,7 @@ void Candidates<S>::merge(const BodyArrays<S>& bodies, const ShapeSet<S>& shapes
         havePieces_ = true;
         if (!shapes.box(a).overlaps(shapes.box(b))) continue;
         const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
-        findPieces(shapes, surface, other, distance);
+        findPieces(shapes, surface, other, distance + shapes.motion(other));
         const typename S::Vec middle = toWorld<S>(shapes.pose(other), shapes[other].middle);
         const bool ridge =
             facesDiffer<S>(shapes[surface].shape, pieces_, toLocal<S>(shapes.pose(surface), middle));

@@ -44,10 +44,12 @@ struct Candidate {
     typename S::Vec normal = S::Vec::Zero();  ///< normal in the frame of the body that it is fixed to
 };
 
-/// Distances of the contact search: WorldDef's settings of the same names.
+/// Distances of the contact search: WorldDef's settings of the same names, and what follows from them.
 template <class S>
 struct ContactSearch {
     typename S::Real speculativeDistance = 0, cacheTolerance = 0, boxMargin = 0;
+    typename S::Real motionTime = 0;  ///< speculativeMotion of the step [s]
+    bool bouncesAhead = false;        ///< the solver keeps points that bounce until they touch
 };
 
 template <class S>

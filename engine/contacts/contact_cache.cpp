@@ -66,10 +66,12 @@ Pose<S> ContactCache<S>::relative(const Candidate<S>& candidate) const {
 
 template <class S>
 bool ContactCache<S>::hasHardlyMoved(const Candidate<S>& candidate) const {
+    const Real ahead = motion(candidate);
+    if (ahead > 0 && candidate.contact != kNullIndex) return false;
     const Pose<S> now = relative(candidate);
-    Real most = slack(candidate);
+    Real most = ahead > 0 ? Real(-1) : slack(candidate);
     if (candidate.contact == kNullIndex)
-        most = std::max(most, candidate.separationBound - queryDistance(candidate));
+        most = std::max(most, candidate.separationBound - queryDistance(candidate) - ahead);
     return (now.p - candidate.relative.p).norm() +
                candidate.radius * rotationDistance(now.q, candidate.relative.q) <=
            most;

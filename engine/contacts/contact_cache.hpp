@@ -20,6 +20,9 @@
 // the normal of two edges turns with A, by at most s / r <= kMaxTurn from the exact one. The solver's input
 // moves with the bodies and jumps only at a query.
 //
+// With WorldDef::speculativeMotion the query distance of fast shapes is larger by their motion, and their
+// manifolds are not valid in the next step.
+//
 // Not cached: pairs with a sphere or circle, pairs of capsules and half-spaces, whose closed forms cost no
 // more than this, and speculative contacts of continuous collision.
 #pragma once
@@ -47,6 +50,10 @@ class ContactCache {
     /// Largest separation that the narrow phase reports [m].
     Real queryDistance(const Candidate<S>& candidate) const {
         return search_.speculativeDistance + slack(candidate);
+    }
+    /// How much further it looks for shapes that move towards each other [m].
+    Real motion(const Candidate<S>& candidate) const {
+        return shapes_.motion(candidate.a) + shapes_.motion(candidate.b);
     }
     /// The cached result is what the narrow phase would find, within the bounds above.
     bool isValid(const Candidate<S>& candidate) const {

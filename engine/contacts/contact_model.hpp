@@ -82,6 +82,8 @@ class ContactModel {
     virtual bool keepsInertia() const { return false; }
     /// A solve can be done again from the velocities and impulses before it.
     virtual bool canRestart() const { return true; }
+    /// Points that bounce may be found ahead: they do so when they touch.
+    virtual bool bouncesAhead() const { return false; }
 };
 
 template <class S>

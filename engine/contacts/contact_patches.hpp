@@ -32,6 +32,7 @@ class PatchContacts final : public ContactModel<S> {
     ContactCounts counts() const override { return {patches_.points(), patches_.rows()}; }
     bool keepsInertia() const override { return true; }
     bool canRestart() const override { return false; }
+    bool bouncesAhead() const override { return true; }
 
   private:
     Patches<S> patches_;

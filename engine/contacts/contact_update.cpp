@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/narrowphase/narrowphases.hpp"
 #include "engine/narrowphase/surface_contact.hpp"
 
 namespace rigor::engine {
@@ -60,6 +61,14 @@ void matchPoints(const BodyArrays<S>& bodies, const OldPoints<S>& old, Contact<S
         }
         if (best < old.count) take(best, i);
     }
+}
+
+/// True where there are points, and all are further apart than `near`.
+template <class S>
+bool isApart(const Manifold<S>& manifold, typename S::Real near) {
+    for (int i = 0; i < manifold.count; ++i)
+        if (manifold.points[i].separation <= near) return false;
+    return manifold.count > 0;
 }
 
 /// Transfers the impulses of the last step to the points of this step.
@@ -157,12 +166,18 @@ template <class S>
 void ContactUpdate<S>::query(Candidate<S>& candidate, Manifold<S>& manifold) const {
     candidate.queried = true;
     const std::uint32_t a = candidate.a, b = candidate.b;
-    const Real distance = cache.queryDistance(candidate);
+    const Real motion = cache.motion(candidate), distance = cache.queryDistance(candidate) + motion;
     manifold.separationLowerBound = 0;
     if (candidate.piece == kNullIndex) {
         narrowPhase.collide(shapes[a].shape, shapes.pose(a), shapes[b].shape, shapes.pose(b), distance,
                             manifold);
         candidate.separationBound = manifold.separationLowerBound;
+        if (motion > 0 && isApart(manifold, cache.queryDistance(candidate))) {
+            // Separating axes bound the distance of shapes; ahead of an impact its direction counts.
+            manifold = {};
+            collideGjkEpa<S>(shapes[a].shape, shapes.pose(a), shapes[b].shape, shapes.pose(b), distance,
+                             manifold);
+        }
     } else {
         const bool surfaceA = isComposite<S>(shapes[a].shape);
         const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
@@ -173,6 +188,30 @@ void ContactUpdate<S>::query(Candidate<S>& candidate, Manifold<S>& manifold) con
         candidate.separationBound = 0;  // a bound for this piece only
     }
     cache.storeResult(candidate);
+    if (motion > 0) dropFarPoints(candidate, manifold);
+}
+
+/// Keeps of the points that were found ahead those that may close in this step.
+template <class S>
+void ContactUpdate<S>::dropFarPoints(Candidate<S>& candidate, Manifold<S>& manifold) const {
+    using Vec = typename S::Vec;
+    const std::uint32_t a = shapes[candidate.a].body, b = shapes[candidate.b].body;
+    const Velocity<S>&A = bodies.velocity[a], &B = bodies.velocity[b];
+    const Real near = cache.queryDistance(candidate);
+    const bool mayBeAhead =
+        bouncesAhead ||
+        materials.pair(shapes[candidate.a].material, shapes[candidate.b].material).restitution == 0;
+    int kept = 0;
+    for (int i = 0; i < manifold.count; ++i) {
+        const ManifoldPoint<S>& point = manifold.points[i];
+        const Vec u = B.v + cross(B.w, Vec(point.pointB - bodies.pose[b].p)) - A.v -
+                      cross(A.w, Vec(point.pointA - bodies.pose[a].p));
+        const Real closes = -motionTime * manifold.normal.dot(u);
+        if (point.separation <= near + (mayBeAhead ? std::max(closes, Real(0)) : Real(0)))
+            manifold.points[kept++] = point;
+    }
+    if (kept < manifold.count) candidate.cached = false;
+    manifold.count = kept;
 }
 
 RIGOR_INSTANTIATE_CLASS(ContactUpdate)

@@ -31,7 +31,9 @@ struct ContactUpdate {
     ManifoldFunction<S> makeManifold;  ///< null: all points of the narrow phase are used
     const LookAhead<S>& ahead;
     ContactCache<S> cache;
-    bool coefficientsHold;  ///< coefficients of persisting contacts are those of their materials
+    bool coefficientsHold;        ///< coefficients of persisting contacts are those of their materials
+    typename S::Real motionTime;  ///< ContactSearch::motionTime [s]
+    bool bouncesAhead;            ///< ContactSearch::bouncesAhead
 
     /// Updates a contact of the last step. False: it has ended.
     bool update(Candidate<S>& candidate, Contact<S>& contact) const;
@@ -42,6 +44,7 @@ struct ContactUpdate {
     using Real = typename S::Real;
 
     void query(Candidate<S>& candidate, Manifold<S>& manifold) const;
+    void dropFarPoints(Candidate<S>& candidate, Manifold<S>& manifold) const;
     void makePoints(Candidate<S>& candidate, Contact<S>& contact) const;
     bool complete(Candidate<S>& candidate, Contact<S>& contact) const;
 };

@@ -25,7 +25,8 @@ template <class S>
 void Contacts<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase,
                             const ContactSearch<S>& search, const LookAhead<S>& ahead, const Tasks& tasks) {
     search_ = search;
-    shapes_.update(bodies, search.speculativeDistance + search.cacheTolerance, ahead, tasks);
+    shapes_.update(bodies, search.speculativeDistance + search.cacheTolerance, search.motionTime, ahead,
+                   tasks);
     pairs_.update(shapes_, broadPhase, search.boxMargin, tasks);
 }
 
@@ -43,7 +44,9 @@ void Contacts<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S
                                   makeManifold,
                                   ahead,
                                   ContactCache<S>(shapes_, search_),
-                                  coefficientsOf_ == materials_.revision()};
+                                  coefficientsOf_ == materials_.revision(),
+                                  search_.motionTime,
+                                  search_.bouncesAhead};
     finder_.run(update, pairs_.exact(), candidates_, list_, tasks);
     coefficientsOf_ = materials_.revision();
 }

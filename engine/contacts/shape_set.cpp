@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/contacts/shape_set.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/shapes/surface.hpp"
 
 namespace rigor::engine {
@@ -44,12 +47,13 @@ void ShapeSet<S>::changed() {
 }
 
 template <class S>
-void ShapeSet<S>::update(const BodyArrays<S>& bodies, Real margin, const LookAhead<S>& ahead,
+void ShapeSet<S>::update(const BodyArrays<S>& bodies, Real margin, Real motionTime, const LookAhead<S>& ahead,
                          const Tasks& tasks) {
     const std::size_t n = records_.size();
     poses_.resize(n);
     boxes_.resize(n);
     movable_.resize(n);
+    motions_.resize(n);
     const typename S::Vec grown = S::Vec::Constant(margin);
     tasks.forEach(n, kShapeGrain, [&](std::size_t i) {
         const ShapeRecord<S>& record = records_[i];
@@ -62,9 +66,27 @@ void ShapeSet<S>::update(const BodyArrays<S>& bodies, Real margin, const LookAhe
             boxes_[i].min -= grown;
             boxes_[i].max += grown;
         }
+        motions_[i] = 0;
+        if (!isStatic && motionTime > 0) growByMotion(bodies, i, margin, motionTime);
         if (!isStatic && ahead.looksAhead()) ahead.growBox(static_cast<std::uint32_t>(i), boxes_[i]);
     });
     staticsValid_ = true;
+}
+
+template <class S>
+void ShapeSet<S>::growByMotion(const BodyArrays<S>& bodies, std::size_t i, Real margin, Real time) {
+    using Vec = typename S::Vec;
+    const ShapeRecord<S>& record = records_[i];
+    const Velocity<S>& velocity = bodies.velocity[record.body];
+    const Vec way = time * velocity.v;
+    const Real turn = time * std::sqrt(dotAng(velocity.w, velocity.w)) * record.boundingRadius;
+    const Real motion = way.norm() + turn;
+    if (!(motion > margin)) return;
+    const Real share = std::min(Real(1), Real(2) * record.radius / motion);
+    motions_[i] = share * motion;
+    const Vec around = Vec::Constant(share * turn), ahead = share * way;
+    boxes_[i].min += ahead.cwiseMin(Real(0)) - around;
+    boxes_[i].max += ahead.cwiseMax(Real(0)) + around;
 }
 
 RIGOR_INSTANTIATE_CLASS(ShapeSet)

@@ -40,23 +40,30 @@ class ShapeSet {
     /// Must be called after records or static bodies have changed.
     void changed();
 
-    /// Poses and boxes where the bodies are. `margin` [m]: by how much boxes of dynamic bodies are grown.
-    void update(const BodyArrays<S>& bodies, Real margin, const LookAhead<S>& ahead, const Tasks& tasks);
+    /// Poses and boxes where the bodies are. `margin` [m]: by how much boxes of dynamic bodies are grown;
+    /// `motionTime` [s]: those that move further in it are grown by their motion, too.
+    void update(const BodyArrays<S>& bodies, Real margin, Real motionTime, const LookAhead<S>& ahead,
+                const Tasks& tasks);
 
     const Pose<S>& pose(std::size_t i) const { return poses_[i]; }
     const std::vector<Aabb<S>>& boxes() const { return boxes_; }
     const Aabb<S>& box(std::size_t i) const { return boxes_[i]; }
     const std::vector<std::uint8_t>& movable() const { return movable_; }
+    /// How far contacts of the shape are looked for along its motion, up to its own size; 0 if it is slow [m].
+    Real motion(std::size_t i) const { return motions_[i]; }
     /// Indices of the shapes that are chains, meshes or height fields.
     const std::vector<std::uint32_t>& surfaces() const { return surfaces_; }
 
   private:
+    void growByMotion(const BodyArrays<S>& bodies, std::size_t i, Real margin, Real time);
+
     std::vector<ShapeRecord<S>> records_;
     IdTable<ShapeTag> ids_;
     std::vector<std::uint32_t> surfaces_;
     std::vector<Pose<S>> poses_;
     std::vector<Aabb<S>> boxes_;
     std::vector<std::uint8_t> movable_;
+    std::vector<Real> motions_;
     bool staticsValid_ = false;  ///< poses and boxes of static bodies are computed
 };
 

@@ -37,6 +37,15 @@ void verticesAgainstPlane(int count, Vertex vertex, typename S::Real radius, con
         if (s <= speculative && found < kMost) near[found++] = i;
     }
     if (found == 0) return;
+    // Points found far ahead: the upper corners are not among the next to touch, and would take the places of
+    // the lower ones.
+    const R limit = std::max(lowest, R(0)) + R(0.5) * size;
+    if (limit < speculative && found < kMost) {
+        int kept = 0;
+        for (int k = 0; k < found; ++k)
+            if (separation(near[k]) <= limit) near[kept++] = near[k];
+        found = kept;
+    }
     if (found == kMost)
         near[0] = deepest;  // a face of many vertices: 64 of them are enough, with the deepest
     out.normal = -n;

@@ -76,7 +76,8 @@ void Step<S>::findPairs() {
     ContinuousCollision<S>& ccd = *algorithms_.ccd;
     BroadPhase<S>& broadPhase = *algorithms_.broadPhase;
     ccd.predict(bodies_, contacts_.shapes().records(), def_.gravity, state_.size);
-    ContactSearch<S> search{def_.speculativeDistance, def_.cacheTolerance, def_.boxMargin};
+    ContactSearch<S> search{def_.speculativeDistance, def_.cacheTolerance, def_.boxMargin,
+                            def_.speculativeMotion * state_.size, contactModel_.bouncesAhead()};
     if (algorithms_.fault != nullptr)
         search.cacheTolerance = search.boxMargin = 0;  // it may change the cache
     const std::size_t before = broadPhase.tests();

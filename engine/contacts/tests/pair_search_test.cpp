@@ -38,7 +38,7 @@ struct Crowd {
         for (Pose<Space2d>& pose : bodies.pose) pose.p += Space2d::Vec(step(random), step(random));
     }
     void find(double margin) {
-        shapes.update(bodies, 0, LookAhead<Space2d>(), Tasks::one());
+        shapes.update(bodies, 0, 0, LookAhead<Space2d>(), Tasks::one());
         search.update(shapes, *broadPhase, margin, Tasks::one());
     }
 };
