@@ -10,7 +10,8 @@
 //                             of form and squares those that belong to the seed; a plate is flat or a slope
 //         seeds=FIRST-LAST (0-19)  bodies=NUMBER (1000)  duration=SECONDS (3)
 //         follow=BODY         of a single case: writes the state of the body, step by step
-// A line for each case, with what is lost as BODY@STEP:SHAPE. A line can be given again as arguments. The
+// A line for each case, with what is lost as BODY@STEP:SHAPE, and what is sunk at the end as BODY~SHAPE:HEIGHT in
+// inner radii. A line can be given again as arguments. The
 // exit code is 1 where something was lost, 2 for arguments that are not understood.
 #include <cstdio>
 #include <cstdlib>
@@ -112,11 +113,13 @@ int count(const Arguments& arguments) {
                 what.duration = std::stod(arguments.at("duration"));
                 forSettings(arguments, what, [&](const Case& one) {
                     const Outcome outcome = run(one, std::stoi(arguments.at("follow")));
-                    std::printf("%s lost %zu sunk %d away %d ms %.2f", describe(one).c_str(),
-                                outcome.lost.size(), outcome.sunk, outcome.away,
+                    std::printf("%s lost %zu sunk %zu away %d ms %.2f", describe(one).c_str(),
+                                outcome.lost.size(), outcome.sunk.size(), outcome.away,
                                 1e3 * outcome.secondsPerStep);
                     for (const Loss& loss : outcome.lost)
                         std::printf(" %d@%d:%s", loss.body, loss.step, loss.shape.c_str());
+                    for (const Sunk& sunk : outcome.sunk)
+                        std::printf(" %d~%s:%.2f", sunk.body, sunk.shape.c_str(), sunk.height);
                     std::printf("\n");
                     std::fflush(stdout);
                     lost += outcome.lost.size();

@@ -91,7 +91,8 @@ class Rain {
         }
         for (const Body& body : bodies_) {
             double x = 0, z = 0;
-            out.sunk += !body.done && depthOf(body, x, z) > -0.5 * body.inner;
+            const double height = -depthOf(body, x, z) / body.inner;
+            if (!body.done && height < 0.5) out.sunk.push_back({body.index, body.shape, height});
         }
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
         out.secondsPerStep = took.count() / steps;

@@ -41,11 +41,17 @@ struct Loss {
     std::string shape;
 };
 
+/// A body on the ground at the end whose middle is less than half its inner radius over it: it overlaps the
+/// ground by more than half of what it can without being lost.
+struct Sunk {
+    int body = 0;
+    std::string shape;
+    double height = 0;  ///< of the middle over the ground, in inner radii
+};
+
 struct Outcome {
     std::vector<Loss> lost;
-    /// Bodies on the ground at the end whose middle is less than half their inner radius over it: they
-    /// overlap it by more than half of what they can without being lost.
-    int sunk = 0;
+    std::vector<Sunk> sunk;
     int away = 0;  ///< bodies that have left the ground over its border; they are not followed any more
     double secondsPerStep = 0;  ///< wall time, mean
 };

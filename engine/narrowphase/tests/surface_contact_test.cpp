@@ -97,6 +97,82 @@ TYPED_TEST(Surface, FlatPiecesAreAHalfSpace) {
     EXPECT_GT(contacts, 200);
 }
 
+/// All contacts that a surface has with a shape, as the step finds them: per facet.
+template <class S>
+std::vector<Manifold<S>> allFacets(const Shape<S>& surface, const Shape<S>& convex, const Pose<S>& X,
+                                   double speculative) {
+    const auto distance = static_cast<typename S::Real>(speculative);
+    std::vector<Manifold<S>> found;
+    std::vector<std::uint32_t> names;
+    addFacetNames<S>(surface, boxOnSurface<S>({}, convex, X, distance), names);
+    const auto narrowPhase = makeNarrowPhase<S>("sat");
+    for (const std::uint32_t name : names) {
+        Manifold<S> m;
+        collideFacet<S>(*narrowPhase, surface, name, false, {}, convex, X, distance, m);
+        if (m.count > 0) found.push_back(m);
+    }
+    return found;
+}
+
+/// A flat surface in pieces is one facet: one manifold, with the points that the shape has with a half-space.
+/// Shapes with discs, and hulls, which a half-space meets at all corners in reach, have their lowest point.
+TYPED_TEST(Surface, AFacetHasTheManifoldOfAHalfSpace) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    Random<S> random{std::mt19937(21)};
+    const Shape<S> plane = HalfSpace<S>{vec<S>(0, 1, 0), R(0)};
+    std::vector<Shape<S>> shapes{Sphere<S>{R(0.4)}, Capsule<S>{R(0.2), R(0.5)},
+                                 Box<S>{S::Vec::Constant(R(0.45))}};
+    if constexpr (S::dim == 3) shapes.push_back(Cylinder<S>{R(0.3), R(0.4)});
+    for (const Shape<S>& surface : flatSurfaces<S>())
+        for (std::size_t kind = 0; kind < shapes.size(); ++kind)
+            for (int i = 0; i < 60; ++i) {
+                const Shape<S>& convex = shapes[kind];
+                Pose<S> X = pose<S>(vec<S>(random.uniform(-1, 1), 0, random.uniform(-1, 1)), turn<S>(0));
+                if (i % 3 == 1) X.q = turn<S>(std::numbers::pi / 2);
+                if (i % 3 == 2) X.q = random.rotation();
+                const double low = static_cast<double>(boundingBox<S>(convex, X).min.y());
+                X.p.y() = static_cast<R>(-low - 1e-3);
+                const auto all = allFacets<S>(surface, convex, X, 2e-3);
+                ASSERT_EQ(all.size(), 1u) << shapeName<S>(convex) << " on " << shapeName<S>(surface);
+                Manifold<S> smooth;
+                makeNarrowPhase<S>("sat")->collide(plane, {}, convex, X, R(2e-3), smooth);
+                EXPECT_LE((all[0].normal - vec<S>(0, 1, 0)).norm(), tol<S>(1e-12, 1e-5));
+                EXPECT_NEAR(leastSeparation(all[0]), leastSeparation(smooth), tol<S>(1e-9, 1e-5));
+                if (kind == 3) continue;
+                ASSERT_EQ(all[0].count, smooth.count) << shapeName<S>(convex);
+                for (int k = 0; k < smooth.count; ++k) {
+                    double nearest = 1;
+                    for (int j = 0; j < all[0].count; ++j)
+                        nearest = std::min(
+                            nearest,
+                            static_cast<double>((all[0].points[j].pointB - smooth.points[k].pointB).norm()));
+                    EXPECT_LE(nearest, tol<S>(1e-9, 1e-5)) << shapeName<S>(convex) << " point " << k;
+                }
+            }
+}
+
+/// A box on the border of the surface stands on the crossings of its edges with the border.
+TYPED_TEST(Surface, AFacetEndsAtItsBorder) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    const Shape<S> box = Box<S>{S::Vec::Constant(R(0.3))};
+    for (const Shape<S>& surface : flatSurfaces<S>()) {
+        const double edge = static_cast<double>(boundingBox<S>(surface, Pose<S>{}).max.x());
+        double least = 1e9, most = -1e9;
+        for (const Manifold<S>& m :
+             allFacets<S>(surface, box, pose<S>(vec<S>(edge - 0.1, 0.3 - 1e-3, 0.07)), 0)) {
+            EXPECT_LE((m.normal - vec<S>(0, 1, 0)).norm(), tol<S>(1e-12, 1e-5));
+            for (int i = 0; i < m.count; ++i) {
+                least = std::min(least, static_cast<double>(m.points[i].pointB.x()));
+                most = std::max(most, static_cast<double>(m.points[i].pointB.x()));
+            }
+        }
+        EXPECT_NEAR(least, edge - 0.4, 1e-5) << shapeName<S>(surface);
+        EXPECT_NEAR(most, edge, 1e-5) << shapeName<S>(surface);
+    }
+}
+
 /// The border of the surface is an edge like any other: what hangs over it by its side gets a normal of the
 /// edge, and beyond reach of it there is nothing.
 TYPED_TEST(Surface, OpenBordersAreFelt) {

@@ -40,6 +40,23 @@ TriangleMesh<S> waves(int n) {
         }
     return makeTriangleMesh<S>(v, t);
 }
+/// A flat field with a rise in column and row 2, as a mesh or a height field.
+template <class S>
+Shape<S> withRise(bool mesh) {
+    using R = typename S::Real;
+    constexpr int kSide = 6;
+    std::vector<R> heights(kSide * kSide, R(0));
+    heights[2 * kSide + 2] = R(0.4);
+    const HeightField<S> ground = makeHeightField<S>(kSide, kSide, R(0.5), R(0.5), heights, R(1));
+    if (!mesh) return ground;
+    std::vector<typename S::Vec> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t v = 0; v < kSide * kSide; ++v) vertices.push_back(ground.data->point(v));
+    for (std::uint32_t i = 0; i < ground.data->pieceCount(); ++i)
+        triangles.push_back(ground.data->corners(i));
+    return makeTriangleMesh<S>(vertices, triangles);
+}
+
 template <class S>
 HeightField<S> field(int columns, int rows) {
     using R = typename S::Real;
@@ -195,6 +212,55 @@ TYPED_TEST(Surfaces2d, BadInputIsRefused) {
     EXPECT_EQ(errorOf([&] { makeChain<S>(two, true); }), "chain_vertices");
     EXPECT_EQ(errorOf([&] { makeChain<S>(same, false); }), "chain_vertices");
     EXPECT_EQ(errorOf([&] { makeChain<S>(std::span<const V>(two, 1), false); }), "chain_vertices");
+}
+
+/// All level triangles around the rise are one facet, each of its slopes is one of its own; sides between two
+/// pieces of a facet are inner sides.
+template <class S>
+void checkFacets() {
+    for (const bool mesh : {false, true})
+        withSurface<S>(withRise<S>(mesh), [&](const auto& data) {
+            const auto rises = [&](std::uint32_t piece) {
+                for (const std::uint32_t v : data.corners(piece))
+                    if (data.point(v).y() > 0) return true;
+                return false;
+            };
+            int slopes = 0;
+            for (std::uint32_t piece = 0; piece < data.pieceCount(); ++piece) {
+                slopes += rises(piece);
+                EXPECT_EQ(data.facets.of(piece), rises(piece) ? piece : 0u) << "mesh " << mesh;
+                for (int side = 0; side < 3; ++side) {
+                    const std::uint32_t beyond = data.across(piece, side);
+                    const bool inner = data.facets.innerSides(piece) >> side & 1u;
+                    if (rises(piece) || beyond == kNullIndex)
+                        EXPECT_FALSE(inner);
+                    else
+                        EXPECT_EQ(inner, data.point(beyond).y() == 0) << "mesh " << mesh;
+                }
+            }
+            EXPECT_EQ(slopes, 6);
+        });
+}
+
+TEST(Facets, AreThePiecesOfAPlane) {
+    checkFacets<Space3f>();
+    checkFacets<Space3d>();
+}
+
+/// A chain with a corner has two facets; one that folds back on itself does not go on in its line.
+TEST(Facets, AreTheSegmentsOfALine) {
+    using V = Space2d::Vec;
+    const V corner[] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 3}};
+    const Chain<Space2d> chain = makeChain<Space2d>(corner, false);
+    const auto& data = *chain.data;
+    const std::uint32_t first[] = {0, 0, 2, 2};
+    const unsigned inner[] = {2, 1, 2, 1};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(data.facets.of(i), first[i]);
+        EXPECT_EQ(data.facets.innerSides(i), inner[i]);
+    }
+    const V folded[] = {{0, 0}, {2, 0}, {1, 0}};
+    EXPECT_EQ(makeChain<Space2d>(folded, false).data->facets.of(1), 1u);
 }
 
 }  // namespace
