@@ -129,7 +129,7 @@ TimeOfImpact<S> SurfaceImpact<S>::find(const MovingShape<S>& a, const MovingShap
         Manifold<S> manifold;
         const Real closing = fastestContact(surface, convex, hit.impact.time, narrowPhase, manifold);
         const bool none = closing == std::numeric_limits<Real>::lowest();
-        // What the solver holds already counts as in timeOfImpact().
+        // A contact that the solver holds already counts as in timeOfImpact().
         const Real least = known ? Real(0.25) * thickness / (horizon - hit.impact.time) : Real(0);
         if (none || closing > least) return hit.impact;
     }

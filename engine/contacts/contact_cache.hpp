@@ -51,7 +51,7 @@ class ContactCache {
     Real queryDistance(const Candidate<S>& candidate) const {
         return search_.speculativeDistance + slack(candidate);
     }
-    /// How much further it looks for shapes that move towards each other [m].
+    /// Addition to the query distance of shapes that move far in the step [m].
     Real motion(const Candidate<S>& candidate) const {
         return shapes_.motion(candidate.a) + shapes_.motion(candidate.b);
     }

@@ -49,7 +49,8 @@ class ShapeSet {
     const std::vector<Aabb<S>>& boxes() const { return boxes_; }
     const Aabb<S>& box(std::size_t i) const { return boxes_[i]; }
     const std::vector<std::uint8_t>& movable() const { return movable_; }
-    /// How far contacts of the shape are looked for along its motion, up to its own size; 0 if it is slow [m].
+    /// Distance along the motion of the shape in which contacts are looked for, up to its size; 0 if it is slow
+    /// [m].
     Real motion(std::size_t i) const { return motions_[i]; }
     /// Indices of the shapes that are chains, meshes or height fields.
     const std::vector<std::uint32_t>& surfaces() const { return surfaces_; }

@@ -81,7 +81,7 @@ class FacetPoints {
             widest = std::max(widest, Real((at(i).pointA - at(0).pointA).norm()));
             lowest = std::min(lowest, at(i).separation);
         }
-        // Of points as deep as each other up to rounding the first counts, so that the choice lasts.
+        // The first of points that are equally deep up to rounding counts, so that the choice lasts.
         const Real noise = kRounding<Real> * at(0).pointA.cwiseAbs().maxCoeff();
         std::array<ManifoldPoint<S>, S::maxManifoldPoints> kept;
         int count = 0;

@@ -173,7 +173,7 @@ void addLowPoints(const Data& data, const Piece& piece, const Placed<S>& placed,
     }
 }
 
-/// What a piece by itself has with a shape.
+/// Kind of contact that a piece by itself has with a shape.
 enum class PieceContact : std::uint8_t {
     None,
     Along,     ///< along the piece's normal

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What inner edges do to bodies that slide or roll over a plane made of pieces (slide.hpp), over many cases:
+// Measures the effect of inner edges on bodies that slide or roll over a plane made of pieces (slide.hpp):
 //     engine_measure_inner_edges [KEY=VALUE ...]
 //         ground=mesh|field|chain  body=sphere|box|capsule_along|capsule_across  preset=default|fast
 //         precision=f64|f32  angle=RADIANS  slope=RADIANS  speed=METRES_PER_SECOND  squares=RATIO  friction=NUMBER

@@ -18,7 +18,7 @@
 namespace rigor::engine::edges {
 namespace {
 
-constexpr double kSize = 0.3;     ///< of the bodies [m]
+constexpr double kSize = 0.3;     ///< size of the bodies [m]
 constexpr double kMargin = 0.45;  ///< ground beside, before and after the way [m]
 constexpr double kGravity = 9.81;
 

@@ -18,15 +18,16 @@ enum class Body : std::uint8_t { Sphere, Box, CapsuleAlong, CapsuleAcross };
 struct Case {
     Ground ground = Ground::Mesh;
     Body body = Body::Sphere;
-    double angle = 0;  ///< from the grid of the pieces to the way of the body, in the plane [rad]
-    double slope = 0;  ///< of the plane, along the way; the vertices of a mesh are turned, and rounded [rad]
-    double speed = 3;  ///< at the start [m/s]
+    double angle = 0;  ///< angle from the grid of the pieces to the way of the body, about its normal [rad]
+    double slope =
+        0;  ///< slope of the plane along the way; the vertices of a mesh are turned, and rounded [rad]
+    double speed = 3;     ///< speed at the start [m/s]
     double squares = 1;   ///< side of the squares over the size of the body (0.3 m)
-    double friction = 0;  ///< of the pair
+    double friction = 0;  ///< coefficient of the pair
     double duration = 1;  ///< [s], in steps of 1/60 s
     bool jitter =
-        false;          ///< vertices of a mesh or chain are moved in the plane by up to a quarter of a square
-    bool fast = false;  ///< preferSpeed() in place of the default settings
+        false;  ///< vertices of a mesh or chain are moved within the ground by up to a quarter of a square
+    bool fast = false;     ///< preferSpeed() in place of the default settings
     bool single = false;   ///< f32
     std::string settings;  ///< settings of the world in place of the preset\'s: "substeps=8,slop=0"
 };
@@ -37,7 +38,7 @@ struct Outcome {
     double velocity = 0;        ///< over the speed at the start
     double spin = 0;            ///< [rad/s]
     double way = 0;             ///< length of the way on the half-space [m]
-    int pieces = 0;             ///< of the ground
+    int pieces = 0;             ///< number of pieces of the ground
     double secondsPerStep = 0;  ///< wall time on the pieces, mean
 };
 

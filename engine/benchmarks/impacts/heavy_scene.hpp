@@ -18,7 +18,7 @@ struct Case {
     bool fast = false;    ///< preferSpeed() in place of the default settings
     bool single = false;  ///< f32
     int bodies = 500;     ///< bricks, or bodies in the tumbler
-    double speed = 15;    ///< of the ball [m/s]; of the tumbler's walls at half their height
+    double speed = 15;    ///< speed of the ball, or of the middles of the tumbler's walls [m/s]
     double duration = 3;  ///< [s], in steps of 1/60 s
     std::uint64_t seed = 0;
     std::string settings;  ///< settings of the world by their keys: "substeps=8,contact_frequency=60"
@@ -26,7 +26,7 @@ struct Case {
 
 struct Outcome {
     double worst = 0;           ///< largest penetration after any step [m]
-    int worstStep = 0;          ///< where that was, from 1
+    int worstStep = 0;          ///< number of that step, from 1
     std::string worstPair;      ///< shapes of that pair
     double mean = 0;            ///< mean over the steps of the largest penetration after each [m]
     double secondsPerStep = 0;  ///< wall time, mean

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How deep bodies get into each other in heavy impacts (heavy_scene.hpp):
+// Measures the penetration of bodies in heavy impacts (heavy_scene.hpp):
 //     engine_measure_heavy_impacts [KEY=VALUE ...]
 //         scene=wall|tumbler  preset=default|fast  precision=f64|f32      each a list with commas
 //         seeds=FIRST-LAST (0-0)  bodies=NUMBER (500)  speed=METRES_PER_SECOND (wall 15, tumbler 3)

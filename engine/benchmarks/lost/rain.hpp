@@ -46,7 +46,7 @@ struct Loss {
 struct Sunk {
     int body = 0;
     std::string shape;
-    double height = 0;  ///< of the middle over the ground, in inner radii
+    double height = 0;  ///< height of the middle over the ground, in inner radii
 };
 
 struct Outcome {

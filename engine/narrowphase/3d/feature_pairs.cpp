@@ -156,8 +156,8 @@ R selectionNoise(const FeaturePair<R>& m, const SupportFeature<R>& ref, const Su
     return discs ? std::max(R(2) * kRimNoise<R> * smallerSide(ref, inc), m.tolerance) : m.tolerance;
 }
 
-/// What a vertex may be beyond an inner side and still count as over the face: rounding must not lose it
-/// between two faces.
+/// Distance that a vertex may be beyond an inner side and still count as over the face: rounding must not lose
+/// it between two faces.
 template <class R>
 R innerSlack(const SupportFeature<R>& ref) {
     R size = 0;

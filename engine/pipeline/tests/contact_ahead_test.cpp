@@ -12,7 +12,7 @@ namespace rigor::engine::test {
 namespace {
 
 constexpr double kFall = 15;  ///< 0.25 m in a step [m/s]
-/// What the single pass of `fast` leaves of the impact of four corners; measured 5.0e-3, of one or two 1e-4.
+/// Overlap that the single pass of `fast` leaves where four corners hit; measured 5.0e-3, of one or two 1e-4.
 constexpr double kOnePass = 7e-3;
 
 template <class S>
@@ -106,7 +106,7 @@ TYPED_TEST(ContactsAhead, BouncesKeepTheirSpeed) {
             }
 }
 
-/// What passes beside the ground is not touched: points that may not close in the step are dropped.
+/// A sphere that passes beside the ground is not touched: points that may not close in the step are dropped.
 TYPED_TEST(ContactsAhead, PassingIsNoImpact) {
     using S = TypeParam;
     using R = typename S::Real;
