@@ -29,7 +29,7 @@ struct Case {
         false;  ///< vertices of a mesh or chain are moved within the ground by up to a quarter of a square
     bool fast = false;     ///< preferSpeed() in place of the default settings
     bool single = false;   ///< f32
-    std::string settings;  ///< settings of the world in place of the preset\'s: "substeps=8,slop=0"
+    std::string settings;  ///< settings of the world in place of the preset's: "substeps=8,slop=0"
 };
 
 /// Greatest differences over the run from the body on the half-space.
