@@ -96,23 +96,24 @@ void Candidates<S>::update(const BodyArrays<S>& bodies, const ShapeSet<S>& shape
                            const CollisionFilter<S>& filter, PairSearch<S>& pairs,
                            const ContactSearch<S>& search, const Tasks& tasks) {
     if (!valid_ || havePieces_ || pairs.changed()) {
-        merge(bodies, shapes, filter, pairs.near(), search.speculativeDistance + search.cacheTolerance);
+        merge(bodies, shapes, filter, pairs.near(), search.speculativeDistance);
         if (list_.fragmented()) list_.defragment(tasks);
         pairs.take();
         valid_ = mayCollideHolds_ = true;
     }
     // A snapshot may come from a world with other settings.
     if (cachedSearch_.speculativeDistance != search.speculativeDistance ||
-        cachedSearch_.cacheTolerance != search.cacheTolerance)
+        cachedSearch_.cacheTolerance != search.cacheTolerance ||
+        cachedSearch_.largeCacheTolerance != search.largeCacheTolerance)
         for (Candidate<S>& candidate : list_) candidate.cached = false;
     cachedSearch_ = search;
 }
 
-/// `distance`: how near a piece of a surface must be to be a candidate [m].
+/// A piece of a surface is a candidate up to the distance that the narrow phase is queried with.
 template <class S>
 void Candidates<S>::merge(const BodyArrays<S>& bodies, const ShapeSet<S>& shapes,
                           const CollisionFilter<S>& filter, const std::vector<ProxyPair>& pairs,
-                          Real distance) {
+                          Real speculativeDistance) {
     std::swap(list_.order(), oldOrder_);
     std::swap(keys_, oldKeys_);
     list_.order().clear();
@@ -137,7 +138,9 @@ void Candidates<S>::merge(const BodyArrays<S>& bodies, const ShapeSet<S>& shapes
         havePieces_ = true;
         if (!shapes.box(a).overlaps(shapes.box(b))) continue;
         const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
-        findPieces(shapes, surface, other, distance + shapes.motion(other));
+        findPieces(
+            shapes, surface, other,
+            speculativeDistance + std::max(shapes.tolerance(a), shapes.tolerance(b)) + shapes.motion(other));
         const typename S::Vec middle = toWorld<S>(shapes.pose(other), shapes[other].middle);
         const bool ridge =
             facesDiffer<S>(shapes[surface].shape, pieces_, toLocal<S>(shapes.pose(surface), middle));

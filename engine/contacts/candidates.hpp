@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "engine/contacts/collision_filter.hpp"
+#include "engine/contacts/contact_search.hpp"
 #include "engine/contacts/pair_search.hpp"
 #include "engine/contacts/shape_set.hpp"
 #include "engine/contacts/slot_list.hpp"
@@ -44,14 +45,6 @@ struct Candidate {
     typename S::Vec normal = S::Vec::Zero();  ///< normal in the frame of the body that it is fixed to
 };
 
-/// Distances of the contact search: WorldDef's settings of the same names, and what follows from them.
-template <class S>
-struct ContactSearch {
-    typename S::Real speculativeDistance = 0, cacheTolerance = 0, boxMargin = 0;
-    typename S::Real motionTime = 0;  ///< speculativeMotion of the step [s]
-    bool bouncesAhead = false;        ///< the solver keeps points that bounce until they touch
-};
-
 template <class S>
 class Candidates {
   public:
@@ -78,7 +71,7 @@ class Candidates {
 
   private:
     void merge(const BodyArrays<S>& bodies, const ShapeSet<S>& shapes, const CollisionFilter<S>& filter,
-               const std::vector<ProxyPair>& pairs, Real distance);
+               const std::vector<ProxyPair>& pairs, Real speculativeDistance);
     void findPieces(const ShapeSet<S>& shapes, std::uint32_t surface, std::uint32_t other, Real distance);
 
     SlotList<Candidate<S>> list_;

@@ -10,6 +10,7 @@
 #include "engine/contacts/slot_list.hpp"
 #include "engine/core/ids.hpp"
 #include "engine/narrowphase/manifolds.hpp"
+#include "engine/state/island_size.hpp"
 #include "engine/state/world_def.hpp"
 
 namespace rigor::engine {
@@ -45,6 +46,7 @@ struct alignas(64) Contact {
     bool touched = false;      ///< value of `touching` at the end of the step before
     bool placed = false;       ///< the points' arms and separations are those of the manifold
     bool impacts = false;      ///< some point has `impact`
+    IslandSize islands = IslandSize::Usual;  ///< of its island: the method that solves it
     PairCoefficients<S> coefficients;
     /// Row block of each point in this step; kPatch: solved as a patch, without rows; kNullIndex: not solved.
     PerPoint<std::uint32_t> block = [] {

@@ -55,7 +55,8 @@ Candidate<S> makeCandidate(const ShapeSet<S>& shapes, std::uint32_t a, std::uint
 
 template <class S>
 typename S::Real ContactCache<S>::slack(const Candidate<S>& candidate) const {
-    return std::min(search_.cacheTolerance, kMaxTurn<Real> * candidate.radius);
+    const Real tolerance = std::max(shapes_.tolerance(candidate.a), shapes_.tolerance(candidate.b));
+    return std::min(tolerance, kMaxTurn<Real> * candidate.radius);
 }
 
 template <class S>
@@ -66,6 +67,7 @@ Pose<S> ContactCache<S>::relative(const Candidate<S>& candidate) const {
 
 template <class S>
 bool ContactCache<S>::hasHardlyMoved(const Candidate<S>& candidate) const {
+    if (slack(candidate) == 0) return false;
     const Real ahead = motion(candidate);
     if (ahead > 0 && candidate.contact != kNullIndex) return false;
     const Pose<S> now = relative(candidate);

@@ -44,12 +44,12 @@ class ContactCache {
   public:
     using Real = typename S::Real;
 
-    ContactCache(const ShapeSet<S>& shapes, const ContactSearch<S>& search)
-        : shapes_(shapes), search_(search) {}
+    ContactCache(const ShapeSet<S>& shapes, Real speculativeDistance)
+        : shapes_(shapes), speculativeDistance_(speculativeDistance) {}
 
     /// Largest separation that the narrow phase reports [m].
     Real queryDistance(const Candidate<S>& candidate) const {
-        return search_.speculativeDistance + slack(candidate);
+        return speculativeDistance_ + slack(candidate);
     }
     /// Addition to the query distance of shapes that move far in the step [m].
     Real motion(const Candidate<S>& candidate) const {
@@ -72,7 +72,7 @@ class ContactCache {
     Pose<S> relative(const Candidate<S>& candidate) const;
 
     const ShapeSet<S>& shapes_;
-    ContactSearch<S> search_;
+    Real speculativeDistance_;
 };
 
 }  // namespace rigor::engine

@@ -12,7 +12,7 @@
 //         solve                        impulses, once or several times
 //         store, advance               impulses back to the contacts; separations follow the bodies
 //
-// Each call is for all contacts, so that no choice is made per contact.
+// Each call is for all contacts of the islands that the step solves now (pipeline/island_method.hpp).
 #pragma once
 
 #include <memory>
@@ -37,6 +37,7 @@ struct ContactStep {
     typename S::Real gapSlop;               ///< gaps up to this count as closed [m]
     typename S::Real warmStart;             ///< factor on the last impulses; 0: none
     bool bounces = true;                    ///< false: restitution is off
+    IslandSize islands = IslandSize::Usual;  ///< the model is for the contacts of these islands
 };
 
 /// Numbers of points and rows that a model has passed to the solver in the last sub-step.

@@ -133,6 +133,8 @@ void PatchContacts<S>::prepare(ContactList<S>& contacts, const BodyArrays<S>& bo
     patches_.resize(contacts.size());
     tasks.forEach(contacts.size(), kPatchGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts[k];
+        if (contact.islands != step.islands)
+            return patches_.setDescriptor(k, {contact.bodyA, contact.bodyB, false, false, 0});
         contact.asleep = isAsleep<S>(bodies, contact);
         const bool movesA = bodies.invMass[contact.bodyA] > 0, movesB = bodies.invMass[contact.bodyB] > 0;
         const bool solved = !contact.asleep && (movesA || movesB);

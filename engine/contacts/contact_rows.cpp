@@ -170,18 +170,22 @@ void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, cons
 
 /// Totals start at zero with the rows of the first sub-step.
 template <class S>
-void RowContacts<S>::prepare(ContactList<S>&, const BodyArrays<S>&, const ContactStep<S>&, const Tasks&) {
+void RowContacts<S>::prepare(ContactList<S>&, const BodyArrays<S>&, const ContactStep<S>& step,
+                             const Tasks&) {
     stepBegins_ = true;
+    islands_ = step.islands;
 }
 
 /// Three passes, so that threads can share the work: which points get rows, where the rows go, the rows.
 template <class S>
 void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodies, const ContactStep<S>& step,
                                   ConstraintRows<S>& rows, const Tasks& tasks) {
-    tasks.forEach(contacts.size(), kRowGrain,
-                  [&](std::size_t k) { prepareRows<S>(bodies, step, stepBegins_, contacts[k]); });
+    tasks.forEach(contacts.size(), kRowGrain, [&](std::size_t k) {
+        if (contacts[k].islands == islands_) prepareRows<S>(bodies, step, stepBegins_, contacts[k]);
+    });
     std::size_t firstRow = rows.rows.size(), firstBlock = rows.blocks.size();
     for (Contact<S>& contact : contacts) {
+        if (contact.islands != islands_) continue;
         contact.firstRow = static_cast<std::uint32_t>(firstRow);
         for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i)
             if (contact.block[i] != kNullIndex) contact.block[i] = static_cast<std::uint32_t>(firstBlock++);
@@ -193,6 +197,7 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
     rows.blocks.resize(firstBlock);
     tasks.forEach(contacts.size(), kRowGrain, [&](std::size_t k) {
         const Contact<S>& contact = contacts[k];
+        if (contact.islands != islands_) return;
         std::uint32_t row = contact.firstRow;
         for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i) {
             if (contact.block[i] == kNullIndex) continue;
@@ -215,7 +220,8 @@ bool RowContacts<S>::applySpeculativeRestitution(const ContactList<S>& contacts,
                                                  ConstraintRows<S>& rows) const {
     bool any = false;
     for (const Contact<S>& contact : contacts)
-        for (int i = 0; contact.speculative && i < contact.manifold.count; ++i) {
+        for (int i = 0; contact.islands == islands_ && contact.speculative && i < contact.manifold.count;
+             ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (contact.points[k].rebound == 0 || contact.block[k] == kNullIndex) continue;
             Row<S>& normal = rows.rows[rows.blocks[contact.block[k]].first];
@@ -230,6 +236,7 @@ template <class S>
 void RowContacts<S>::advance(ContactList<S>& contacts, std::span<const Velocity<S>> velocities, Real h,
                              const Tasks&) {
     for (Contact<S>& contact : contacts) {
+        if (contact.islands != islands_) continue;
         const Velocity<S>&A = velocities[contact.bodyA], &B = velocities[contact.bodyB];
         const typename S::Vec dA = h * A.v, dB = h * B.v;
         const typename S::Ang aA = h * A.w, aB = h * B.w;
@@ -244,7 +251,7 @@ void RowContacts<S>::advance(ContactList<S>& contacts, std::span<const Velocity<
 template <class S>
 void RowContacts<S>::store(ContactList<S>& contacts, const ConstraintRows<S>& rows, bool, const Tasks&) {
     for (Contact<S>& contact : contacts)
-        for (int i = 0; i < contact.manifold.count; ++i) {
+        for (int i = 0; contact.islands == islands_ && i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (contact.block[k] == kNullIndex) continue;
             const Block<S>& block = rows.blocks[contact.block[k]];

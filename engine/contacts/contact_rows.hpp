@@ -33,6 +33,7 @@ class RowContacts final : public ContactModel<S> {
 
   private:
     ContactCounts counts_;
+    IslandSize islands_ = IslandSize::Usual;
     bool stepBegins_ = false;  ///< the next sub-step is the first of its step
 };
 

@@ -25,8 +25,7 @@ template <class S>
 void Contacts<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase,
                             const ContactSearch<S>& search, const LookAhead<S>& ahead, const Tasks& tasks) {
     search_ = search;
-    shapes_.update(bodies, search.speculativeDistance + search.cacheTolerance, search.motionTime, ahead,
-                   tasks);
+    shapes_.update(bodies, search, ahead, tasks);
     pairs_.update(shapes_, broadPhase, search.boxMargin, tasks);
 }
 
@@ -43,7 +42,7 @@ void Contacts<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S
                                   narrowPhase,
                                   makeManifold,
                                   ahead,
-                                  ContactCache<S>(shapes_, search_),
+                                  ContactCache<S>(shapes_, search_.speculativeDistance),
                                   coefficientsOf_ == materials_.revision(),
                                   search_.motionTime,
                                   search_.bouncesAhead};

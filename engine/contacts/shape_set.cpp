@@ -47,14 +47,14 @@ void ShapeSet<S>::changed() {
 }
 
 template <class S>
-void ShapeSet<S>::update(const BodyArrays<S>& bodies, Real margin, Real motionTime, const LookAhead<S>& ahead,
-                         const Tasks& tasks) {
+void ShapeSet<S>::update(const BodyArrays<S>& bodies, const ContactSearch<S>& search,
+                         const LookAhead<S>& ahead, const Tasks& tasks) {
     const std::size_t n = records_.size();
     poses_.resize(n);
     boxes_.resize(n);
     movable_.resize(n);
     motions_.resize(n);
-    const typename S::Vec grown = S::Vec::Constant(margin);
+    tolerance_.resize(n, search.cacheTolerance);
     tasks.forEach(n, kShapeGrain, [&](std::size_t i) {
         const ShapeRecord<S>& record = records_[i];
         const bool isStatic = bodies.constants[record.body].type == BodyType::Static;
@@ -62,12 +62,15 @@ void ShapeSet<S>::update(const BodyArrays<S>& bodies, Real margin, Real motionTi
         poses_[i] = compose<S>(bodies.pose[record.body], record.local);
         boxes_[i] = boundingBox<S>(record.shape, poses_[i]);
         movable_[i] = bodies.constants[record.body].type == BodyType::Dynamic;
+        tolerance_[i] = search.toleranceOf(bodies.islands[record.body]);
         if (movable_[i]) {
+            const typename S::Vec grown = S::Vec::Constant(search.speculativeDistance + tolerance_[i]);
             boxes_[i].min -= grown;
             boxes_[i].max += grown;
         }
         motions_[i] = 0;
-        if (!isStatic && motionTime > 0) growByMotion(bodies, i, margin, motionTime);
+        if (!isStatic && search.motionTime > 0)
+            growByMotion(bodies, i, search.speculativeDistance + tolerance_[i], search.motionTime);
         if (!isStatic && ahead.looksAhead()) ahead.growBox(static_cast<std::uint32_t>(i), boxes_[i]);
     });
     staticsValid_ = true;

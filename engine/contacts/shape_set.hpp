@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/contacts/contact_search.hpp"
 #include "engine/contacts/look_ahead.hpp"
 #include "engine/contacts/shape_record.hpp"
 #include "engine/core/tasks.hpp"
@@ -40,14 +41,16 @@ class ShapeSet {
     /// Must be called after records or static bodies have changed.
     void changed();
 
-    /// Poses and boxes where the bodies are. `margin` [m]: by how much boxes of dynamic bodies are grown;
-    /// `motionTime` [s]: those that move further in it are grown by their motion, too.
-    void update(const BodyArrays<S>& bodies, Real margin, Real motionTime, const LookAhead<S>& ahead,
+    /// Poses and boxes where the bodies are. Boxes of dynamic bodies are grown by the distances of `search`, and
+    /// by the motion in motionTime of those that move further.
+    void update(const BodyArrays<S>& bodies, const ContactSearch<S>& search, const LookAhead<S>& ahead,
                 const Tasks& tasks);
 
     const Pose<S>& pose(std::size_t i) const { return poses_[i]; }
     const std::vector<Aabb<S>>& boxes() const { return boxes_; }
     const Aabb<S>& box(std::size_t i) const { return boxes_[i]; }
+    /// Cache tolerance of a shape's contacts in this step; that of two shapes is the larger [m].
+    Real tolerance(std::size_t i) const { return tolerance_[i]; }
     const std::vector<std::uint8_t>& movable() const { return movable_; }
     /// Distance along the motion of the shape in which contacts are looked for, up to its size; 0 if it is slow
     /// [m].
@@ -63,6 +66,7 @@ class ShapeSet {
     std::vector<std::uint32_t> surfaces_;
     std::vector<Pose<S>> poses_;
     std::vector<Aabb<S>> boxes_;
+    std::vector<Real> tolerance_;
     std::vector<std::uint8_t> movable_;
     std::vector<Real> motions_;
     bool staticsValid_ = false;  ///< poses and boxes of static bodies are computed

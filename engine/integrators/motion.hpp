@@ -50,6 +50,11 @@ class Motion {
     void kick(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks = Tasks::one());
     /// Moves every body over h.
     void move(BodyArrays<S>& bodies, Real h, const Tasks& tasks = Tasks::one());
+    /// Moves a pose over h with a constant velocity, as move() does kinematic bodies.
+    void carry(Pose<S>& pose, const Velocity<S>& velocity, Real h) const {
+        pose.p += h * velocity.v;
+        pose.q = turn_(pose.q, Ang(h * velocity.w));
+    }
     /// The velocities of the last move().
     std::span<const Velocity<S>> used() const { return used_; }
     /// Orientations before the last move(), by dense index.

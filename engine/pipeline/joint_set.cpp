@@ -105,6 +105,8 @@ template <class S>
 void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step, ConstraintRows<S>& rows) {
     for (Record& record : records_) {
         const std::uint32_t a = record.joint.a, b = record.joint.b;
+        record.solved = record.islands == step.islands;
+        if (!record.solved) continue;
         record.firstRow = static_cast<std::uint32_t>(rows.rows.size());
         if (bodies.invMass[a] == 0 && bodies.invMass[b] == 0) {  // asleep
             record.rows = record.equalities = 0;
@@ -199,7 +201,7 @@ BiasChange<typename S::Real> JointSet<S>::updateBiases(const BodyArrays<S>& bodi
                 rotatedBy(bodies.pose[i].q, typename S::Ang(step.h * velocities[i].w))};
     };
     for (const Record& record : records_) {
-        if (record.rows == 0) continue;
+        if (!record.solved || record.rows == 0) continue;
         const Block<S>& block = rows.blocks[record.block];
         typename S::Vec force = S::Vec::Zero();
         for (std::uint32_t i = 0; i < record.rows; ++i)
@@ -246,7 +248,7 @@ typename S::Real JointSet<S>::work(const ConstraintRows<S>& rows,
             energy += (startVelocities_[body].v.squaredNorm() + velocities[body].v.squaredNorm()) / invMass;
     };
     for (const Record& record : records_) {
-        if (record.equalities == 0) continue;
+        if (!record.solved || record.equalities == 0) continue;
         const Block<S>& block = rows.blocks[record.block];
         for (std::uint32_t i = record.firstRow; i < record.firstRow + record.equalities; ++i) {
             const Row<S>& row = rows.rows[i];
@@ -264,13 +266,14 @@ void JointSet<S>::restart(ConstraintRows<S>& rows, std::span<Velocity<S>> veloci
     std::copy(startVelocities_.begin(), startVelocities_.end(), velocities.begin());
     for (std::size_t i = 0; i < rows.rows.size(); ++i) rows.rows[i].impulse = startImpulses_[i];
     for (const Record& record : records_)
-        for (std::uint32_t i = record.firstRow; i < record.firstRow + record.equalities; ++i)
-            rows.rows[i].impulse = 0;
+        for (std::uint32_t i = 0; record.solved && i < record.equalities; ++i)
+            rows.rows[record.firstRow + i].impulse = 0;
 }
 
 template <class S>
 void JointSet<S>::storeImpulses(const BodyArrays<S>& bodies, const ConstraintRows<S>& rows) {
     for (Record& record : records_) {
+        if (!record.solved) continue;
         Joint<S>& joint = record.joint;
         typename S::Vec force = S::Vec::Zero();
         typename S::Ang moment = zeroAng<S>();

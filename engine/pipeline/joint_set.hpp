@@ -15,11 +15,12 @@ namespace rigor::engine {
 /// Parameters of a step for joint rows.
 template <class S>
 struct JointStep {
-    typename S::Real h;               ///< size of the (sub-)step [s]
-    BiasRule<typename S::Real> bias;  ///< bias of the rows from position errors
-    typename S::Real warmStart;       ///< factor on the last impulses; 0: none
-    bool relinearized;                ///< biases are re-linearised at the predicted end of the step
-    typename S::Real curvature = 1;   ///< factor on that change of the bias; < 1 where the iteration diverges
+    typename S::Real h;                      ///< size of the (sub-)step [s]
+    BiasRule<typename S::Real> bias;         ///< bias of the rows from position errors
+    typename S::Real warmStart;              ///< factor on the last impulses; 0: none
+    bool relinearized;                       ///< biases are re-linearised at the predicted end of the step
+    IslandSize islands = IslandSize::Usual;  ///< rows are of the joints of these islands
+    typename S::Real curvature = 1;  ///< factor on that change of the bias; < 1 where the iteration diverges
 };
 
 /// Change of the joints' biases when they were re-linearised [m/s or rad/s].
@@ -44,6 +45,8 @@ class JointSet {
         typename S::Vec armB = S::Vec::Zero();   ///< B's anchor from its centre when the rows were made [m]
         std::uint32_t firstRow = 0;              ///< its rows in this step follow each other
         std::uint32_t rows = 0, equalities = 0;  ///< all rows; equality rows, which come first
+        IslandSize islands = IslandSize::Usual;  ///< of its island: the method that solves it
+        bool solved = false;                     ///< its rows are among those of this half of the step
         std::uint32_t block = 0;                 ///< block of the equality rows; each other row has its own
     };
 

@@ -123,7 +123,7 @@ std::span<const typename S::Real> Joints<S>::impulses(JointId joint) const {
 template <class S>
 std::pair<std::uint32_t, std::uint32_t> Joints<S>::rows(JointId joint) const {
     const Record& record = this->record(joint);
-    return {record.firstRow, record.rows};
+    return {record.firstRow, record.solved ? record.rows : 0};
 }
 
 template <class S>

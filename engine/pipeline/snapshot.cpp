@@ -19,7 +19,7 @@ namespace rigor::engine {
 namespace {
 
 constexpr char kMagic[8] = {'R', 'I', 'G', 'O', 'R', 'S', 'N', 'P'};
-constexpr std::uint32_t kVersion = 6;  ///< raised with every change of state_fields.def
+constexpr std::uint32_t kVersion = 7;  ///< raised with every change of state_fields.def
 constexpr std::uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -104,8 +104,15 @@ void visitState(A& archive, World& world) {
     const std::size_t count = archive.size(contacts.size());
     if constexpr (!std::is_const_v<World>) contacts.reset(count);
     for (auto& contact : contacts) visitContact(archive, contact);
+    // Where no island is large, these follow from the rest of the state.
+    const bool large = std::any_of(bodies.islands.begin(), bodies.islands.end(),
+                                   [](IslandSize size) { return size == IslandSize::Large; });
+    if (!std::is_same_v<A, HashArchive> || large) {
+        visitValue(archive, bodies.islands);
+        visitValue(archive, world.contacts.candidates().cachedSearch().largeCacheTolerance);
+    }
     // If no manifolds are cached, the candidates follow from the rest of the state.
-    if (!std::is_same_v<A, HashArchive> || world.def.cacheTolerance > 0)
+    if (!std::is_same_v<A, HashArchive> || world.def.cacheTolerance > 0 || large)
         visitManifoldCache(archive, world.contacts.candidates());
 }
 
@@ -164,7 +171,8 @@ void checkRestored(const WorldParts<S>& world, std::size_t bodyCount) {
     const auto require = &ByteReader::require;
     require(bodies.id.size() == bodyCount && bodies.pose.size() == bodyCount &&
                 bodies.velocity.size() == bodyCount && bodies.wrench.size() == bodyCount &&
-                bodies.asleep.size() == bodyCount && bodies.stillTime.size() == bodyCount,
+                bodies.asleep.size() == bodyCount && bodies.stillTime.size() == bodyCount &&
+                bodies.islands.size() == bodyCount,
             "another number of bodies");
     for (std::size_t i = 1; i < bodyCount; ++i)
         require(bodyIds.contains(bodies.id[i]) && bodyIds.dense(bodies.id[i]) == i, "a body without a name");
@@ -245,6 +253,12 @@ void World<S>::restoreSnapshot(std::span<const unsigned char> bytes) {
         bodies.invMass[i] = awake ? Real(1) / constants.mass : Real(0);
         bodies.invInertia[i] = zeroInertia<S>();
     }
+    const auto sizeOf = [&bodies](std::uint32_t a, std::uint32_t b) {
+        return std::max(bodies.islands[a], bodies.islands[b]);
+    };
+    for (Contact<S>& contact : restored.contacts.list())
+        contact.islands = sizeOf(contact.bodyA, contact.bodyB);
+    for (auto& record : restored.joints.records()) record.islands = sizeOf(record.joint.a, record.joint.b);
     restored.contacts.structureChanged(false);
     restored.algorithms.broadPhase->reset();
     next.step_.result = {};

@@ -78,6 +78,10 @@ void Step<S>::findPairs() {
     ccd.predict(bodies_, contacts_.shapes().records(), def_.gravity, state_.size);
     ContactSearch<S> search{def_.speculativeDistance, def_.cacheTolerance, def_.boxMargin,
                             def_.speculativeMotion * state_.size, contactModel_.bouncesAhead()};
+    if (algorithms_.large) {
+        search.largeCacheTolerance = algorithms_.large->cacheTolerance;
+        search.bouncesAhead = search.bouncesAhead && algorithms_.large->contactModel->bouncesAhead();
+    }
     if (algorithms_.fault != nullptr)
         search.cacheTolerance = search.boxMargin = 0;  // it may change the cache
     const std::size_t before = broadPhase.tests();
@@ -91,6 +95,7 @@ void Step<S>::findManifolds() {
                             tasks_);
     world_.islands.changed();
     if (algorithms_.sleeping.wake) algorithms_.sleeping.wake(sleepStep());
+    if (algorithms_.large) sortIslands();
 }
 
 template <class S>
@@ -109,9 +114,9 @@ void Step<S>::makeRows() {
     rows_.clear();
     const ContactStep<S> step = contactStep();
     const BiasRule<Real> jointBias =
-        def_.relinearizedJoints ? step.bias : algorithms_.style.linearJointBias.value_or(step.bias);
+        method_.relinearizedJoints ? step.bias : method_.style.linearJointBias.value_or(step.bias);
     state_.jointStep = {h, jointBias, step.warmStart,
-                        def_.relinearizedJoints && motion_.movesWithSolvedVelocity()};
+                        method_.relinearizedJoints && motion_.movesWithSolvedVelocity(), step.islands};
     joints_.addRows(bodies_, state_.jointStep, rows_);
     state_.jointRows = rows_.rows.size();
     if (begins) contactModel_.prepare(contacts_.list(), bodies_, step, tasks_);
@@ -124,24 +129,24 @@ ContactStep<S> Step<S>::contactStep() const {
     const Real h = state_.substepSize;
     // Twice what gravity adds in a sub-step: a resting contact never approaches that fast.
     const Real gravityStep = h * def_.gravity.norm();
-    return {
-        h,
-        def_.restitutionThreshold,
-        Real(2) * h * gravityStep,
-        std::max(def_.restitutionThreshold, Real(2) * gravityStep),
-        biasRule(),
-        def_.slop,
-        def_.gapSlop,
-        def_.warmStarting && world_.clock.lastSubstepSize > 0 ? h / world_.clock.lastSubstepSize : Real(0),
-        algorithms_.restitution->bounces()};
+    return {h,
+            def_.restitutionThreshold,
+            Real(2) * h * gravityStep,
+            std::max(def_.restitutionThreshold, Real(2) * gravityStep),
+            biasRule(),
+            def_.slop,
+            def_.gapSlop,
+            def_.warmStarting && state_.lastSubstepSize > 0 ? h / state_.lastSubstepSize : Real(0),
+            algorithms_.restitution->bounces(),
+            state_.islands};
 }
 
 template <class S>
 BiasRule<typename S::Real> Step<S>::biasRule() const {
-    BiasRule<Real> rule = algorithms_.style.bias ? *algorithms_.style.bias : algorithms_.correction->bias();
+    BiasRule<Real> rule = method_.style.bias ? *method_.style.bias : algorithms_.correction->bias();
     // A spring faster than a quarter of the step rate cannot be resolved [Catto2011].
     const Real fastest = Real(0.25) / state_.substepSize;
-    rule.contact = {std::min(def_.contactFrequency, fastest), def_.contactDampingRatio};
+    rule.contact = {std::min(method_.contactFrequency, fastest), def_.contactDampingRatio};
     rule.joint = {std::min(def_.jointFrequency, fastest), def_.jointDampingRatio};
     return rule;
 }
@@ -157,7 +162,7 @@ void Step<S>::solveImpacts() {
     const bool relinearized = std::exchange(state_.jointStep.relinearized, false);
     // An impact has no impulses for a warm start, like a first step.
     algorithms_.restitution->impact(rows_, bodies_.velocity, [this] {
-        solveVelocities(std::max(def_.firstStepIterations, world_.velocityIterations()), false);
+        solveVelocities(std::max(def_.firstStepIterations, method_.velocityIterations), false);
     });
     state_.jointStep.relinearized = relinearized;
     joints_.storeImpulses(bodies_, rows_);
@@ -176,8 +181,8 @@ void Step<S>::kick() {
 template <class S>
 void Step<S>::solve() {
     // A first step has no impulses to start from.
-    const bool fromNothing = world_.clock.steps == 0 && state_.substep == 0 && !algorithms_.style.iterations;
-    const int usual = world_.velocityIterations();
+    const bool fromNothing = world_.clock.steps == 0 && state_.substep == 0 && !method_.style.iterations;
+    const int usual = method_.velocityIterations;
     solveVelocities(fromNothing ? std::max(def_.firstStepIterations, usual) : usual, false);
 }
 
@@ -194,8 +199,8 @@ void Step<S>::solveVelocities(int iterations, bool warmStarted) {
                          warmStarted, def_.residualTolerance, def_.pyramidDirections};
     const bool mayRestart = state_.jointStep.relinearized && contactModel_.canRestart();
     if (mayRestart) joints_.remember(rows_, bodies_.velocity);
-    contactModel_.solve(*algorithms_.solver, input, tasks_);
-    result_.solverGaveUp = result_.solverGaveUp || algorithms_.solver->gaveUp();
+    contactModel_.solve(*method_.solver, input, tasks_);
+    result_.solverGaveUp = result_.solverGaveUp || method_.solver->gaveUp();
     if (!state_.jointStep.relinearized) return;
     // The joint biases are re-linearised in every iteration. That diverges where light links rotate far in a
     // step, or where the joints hardly allow the motion, as in a flat net: then the step is solved again with
@@ -207,7 +212,7 @@ void Step<S>::solveVelocities(int iterations, bool warmStarted) {
     state_.jointStep.curvature = 0;
     if (diverges) joints_.restart(rows_, bodies_.velocity);
     input.warmStarted = warmStarted || !diverges;
-    contactModel_.solve(*algorithms_.solver, input, tasks_);
+    contactModel_.solve(*method_.solver, input, tasks_);
 }
 
 template <class S>
@@ -227,11 +232,11 @@ void Step<S>::resolveImpacts() {
 
 template <class S>
 void Step<S>::relax() {
-    int iterations = algorithms_.style.bias
-                         ? algorithms_.style.relaxIterations
-                         : std::min(algorithms_.correction->relaxIterations(), world_.velocityIterations());
+    int iterations = method_.style.bias
+                         ? method_.style.relaxIterations
+                         : std::min(algorithms_.correction->relaxIterations(), method_.velocityIterations);
     if (contactModel_.applySpeculativeRestitution(contacts_.list(), rows_))
-        iterations = std::max(iterations, world_.velocityIterations());
+        iterations = std::max(iterations, method_.velocityIterations);
     if (iterations == 0) return;
     rows_.relax();
     state_.jointStep.relinearized = false;
@@ -246,8 +251,8 @@ void Step<S>::solvePositions() {
     StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h,
                                std::numeric_limits<Real>::infinity(), state_.positions);
     state_.jointStep.relinearized = false;
-    algorithms_.solver->solvePositions(positions, {rows_, bodies_.velocity, algorithms_.friction, monitor,
-                                                   world_.velocityIterations(), h, true});
+    method_.solver->solvePositions(positions, {rows_, bodies_.velocity, algorithms_.friction, monitor,
+                                               method_.velocityIterations, h, true});
     // Velocities get what has moved the bodies beyond them: with symplectic Euler the result is (x - x0) / h,
     // and a body that nothing has moved keeps its velocity to the bit.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -264,10 +269,11 @@ void Step<S>::solvePositions() {
 template <class S>
 void Step<S>::correct() {
     const Real h = state_.substepSize;
-    const bool last = state_.substep + 1 == world_.substeps();
+    const bool last = state_.substep + 1 == method_.substeps;
+    if (last) countContacts();
     joints_.storeImpulses(bodies_, rows_);
     contactModel_.store(contacts_.list(), rows_, last, tasks_);
-    if (!algorithms_.style.ownsCorrection) {
+    if (!method_.style.ownsCorrection) {
         // Slower than this a contact is as good as resting, and its overlap is corrected.
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
         StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, state_.positions);
@@ -275,14 +281,21 @@ void Step<S>::correct() {
     }
     motion_.finish(bodies_, h, tasks_);
     if (!last) advanceContacts();
-    world_.clock.lastSubstepSize = h;
+    state_.lastSubstepSize = h;
+}
+
+template <class S>
+void Step<S>::countContacts() {
+    const ContactCounts contacts = contactModel_.counts();
+    result_.contacts += contacts.points;
+    result_.rows += state_.jointRows + contacts.rows;
 }
 
 /// Advances the contacts' separations: by the corrected poses if positions were corrected, by velocities
 /// otherwise.
 template <class S>
 void Step<S>::advanceContacts() {
-    const bool corrected = !algorithms_.style.ownsCorrection || algorithms_.style.positions;
+    const bool corrected = !method_.style.ownsCorrection || method_.style.positions;
     if (corrected)
         contactModel_.advance(contacts_.list(), state_.positions.motion, Real(1), tasks_);
     else

@@ -53,42 +53,50 @@ const char* phaseName(Phase phase) {
     return names[static_cast<std::size_t>(phase)];
 }
 
-/// The stages of a step in their order: calls stage(Phase, sub-step, the member function that does the work).
+/// The stages of a step in their order: calls stage(islands, Phase, sub-step, the member function that does the
+/// work). Which islands there are is known once the contacts are.
 template <class S>
 template <class Visitor>
-void Step<S>::forEachStage(const WorldParts<S>& world, const Visitor& stage) {
-    stage(Phase::BroadPhase, 0, &Step::findPairs);
-    stage(Phase::NarrowPhase, 0, &Step::findManifolds);
-    for (int substep = 0; substep < world.substeps(); ++substep) {
-        stage(Phase::Rows, substep, &Step::makeRows);
-        stage(Phase::Velocities, substep, &Step::kick);
-        if (!world.algorithms.style.positions) {
-            stage(Phase::Solve, substep, &Step::solve);
-            stage(Phase::Move, substep, &Step::move);
-            stage(Phase::Impacts, substep, &Step::resolveImpacts);
-            stage(Phase::Relax, substep, &Step::relax);
-        } else {
-            stage(Phase::Move, substep, &Step::move);
-            stage(Phase::Positions, substep, &Step::solvePositions);
-            stage(Phase::Solve, substep, &Step::solve);
-            stage(Phase::Impacts, substep, &Step::resolveImpacts);
+void Step<S>::forEachStage(const WorldParts<S>& world, const StepState<S>& state, const Visitor& visit) {
+    visit(IslandSize::Usual, Phase::BroadPhase, 0, &Step::findPairs);
+    visit(IslandSize::Usual, Phase::NarrowPhase, 0, &Step::findManifolds);
+    // Usual islands last: their rows can be read after the step.
+    for (const IslandSize islands : {IslandSize::Large, IslandSize::Usual}) {
+        if (!(islands == IslandSize::Large ? state.anyLarge : state.anyUsual)) continue;
+        const IslandMethod<S>& method = world.algorithms.method(islands);
+        for (int substep = 0; substep < method.substeps; ++substep) {
+            const auto stage = [&](Phase phase, Work work) { visit(islands, phase, substep, work); };
+            stage(Phase::Rows, &Step::makeRows);
+            stage(Phase::Velocities, &Step::kick);
+            if (!method.style.positions) {
+                stage(Phase::Solve, &Step::solve);
+                stage(Phase::Move, &Step::move);
+                stage(Phase::Impacts, &Step::resolveImpacts);
+                stage(Phase::Relax, &Step::relax);
+            } else {
+                stage(Phase::Move, &Step::move);
+                stage(Phase::Positions, &Step::solvePositions);
+                stage(Phase::Solve, &Step::solve);
+                stage(Phase::Impacts, &Step::resolveImpacts);
+            }
+            stage(Phase::Correct, &Step::correct);
         }
-        stage(Phase::Correct, substep, &Step::correct);
     }
 }
 
 template <class S>
-Step<S>::Step(WorldParts<S>& world, StepState<S>& state)
+Step<S>::Step(WorldParts<S>& world, StepState<S>& state, IslandSize islands)
     : world_(world),
       state_(state),
       def_(world.def),
       algorithms_(world.algorithms),
+      method_(world.algorithms.method(islands)),
       tasks_(world.tasks),
       bodies_(world.bodies.arrays()),
       contacts_(world.contacts),
       joints_(world.joints.set()),
-      motion_(world.algorithms.motion),
-      contactModel_(*world.algorithms.contactModel),
+      motion_(method_.motion),
+      contactModel_(*method_.contactModel),
       rows_(state.rows),
       result_(state.result) {}
 
@@ -102,17 +110,19 @@ void Step<S>::begin(Real h) {
     state_.residuals.clear();
     state_.impacts.clear();
     joints_.clearTotals();
-    motion_.beginStep();
     state_.active = true;
     state_.stagesDone = state_.substep = 0;
     state_.size = h;
-    state_.substepSize = h / Real(world_.substeps());
+    state_.anyUsual = true;
+    state_.anyLarge = false;
 }
 
 template <class S>
 void Step<S>::runAll() {
     tasks_.withWorkers([this] {
-        forEachStage(world_, [this](Phase phase, int substep, Work work) { run(phase, substep, work); });
+        forEachStage(world_, state_, [this](IslandSize islands, Phase phase, int substep, Work work) {
+            Step(world_, state_, islands).run(phase, substep, work);
+        });
         end();
     });
 }
@@ -121,6 +131,7 @@ template <class S>
 void Step<S>::run(Phase phase, int substep, Work work) {
     PhaseClock clock(result_.seconds);
     state_.substep = substep;
+    if (phase == Phase::Rows && substep == 0) beginIslands();
     (this->*work)();
     if (algorithms_.fault != nullptr) injectFault(phase);
     clock.end(phase);
@@ -134,8 +145,8 @@ void Step<S>::runNext() {
     const int next = state_.stagesDone;
     int stages = 0;
     tasks_.withWorkers([&] {
-        forEachStage(world_, [&](Phase phase, int substep, Work work) {
-            if (stages++ == next) run(phase, substep, work);
+        forEachStage(world_, state_, [&](IslandSize islands, Phase phase, int substep, Work work) {
+            if (stages++ == next) Step(world_, state_, islands).run(phase, substep, work);
         });
         if (state_.stagesDone == stages) end();
     });
@@ -145,7 +156,7 @@ template <class S>
 typename Step<S>::Stage Step<S>::next(const WorldParts<S>& world, const StepState<S>& state) {
     Stage next;
     int stages = 0;
-    forEachStage(world, [&](Phase phase, int substep, Work) {
+    forEachStage(world, state, [&](IslandSize, Phase phase, int substep, Work) {
         if (stages++ == state.stagesDone) next = {phase, substep};
     });
     return next;
@@ -154,6 +165,7 @@ typename Step<S>::Stage Step<S>::next(const WorldParts<S>& world, const StepStat
 template <class S>
 void Step<S>::end() {
     state_.active = false;
+    endIslands();
     tasks_.forEach(bodies_.size(), kBodyGrain, [this](std::size_t i) { bodies_.wrench[i] = {}; });
     contacts_.keepSides(bodies_, tasks_);
     if (algorithms_.sleeping.rest) algorithms_.sleeping.rest(sleepStep());
@@ -161,9 +173,6 @@ void Step<S>::end() {
     world_.clock.time += static_cast<double>(state_.size);
     ++world_.clock.steps;
     result_.pairs = contacts_.pairSearch().count();
-    const ContactCounts contacts = contactModel_.counts();
-    result_.contacts = contacts.points;
-    result_.rows = state_.jointRows + contacts.rows;
     result_.narrowPhaseCalls = contacts_.queries();
     result_.iterations = static_cast<int>(state_.residuals.size());
     result_.measure = def_.measureResiduals ? ResidualMeasure::NaturalMap : ResidualMeasure::Change;
@@ -195,11 +204,11 @@ bool Step<S>::isFinite() const {
     return finite;
 }
 
-#define RIGOR_INSTANTIATE(S)                               \
-    template Step<S>::Step(WorldParts<S>&, StepState<S>&); \
-    template void Step<S>::begin(Real);                    \
-    template void Step<S>::runAll();                       \
-    template void Step<S>::runNext();                      \
+#define RIGOR_INSTANTIATE(S)                                           \
+    template Step<S>::Step(WorldParts<S>&, StepState<S>&, IslandSize); \
+    template void Step<S>::begin(Real);                                \
+    template void Step<S>::runAll();                                   \
+    template void Step<S>::runNext();                                  \
     template typename Step<S>::Stage Step<S>::next(const WorldParts<S>&, const StepState<S>&);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

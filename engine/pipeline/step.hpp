@@ -21,6 +21,11 @@ struct StepState {
     int stagesDone = 0;
     int substep = 0;                 ///< index of the sub-step of the stage that runs, or has run last
     Real size = 0, substepSize = 0;  ///< [s]
+    Real lastSubstepSize = 0;        ///< that of the impulses that the rows start from [s]
+    // --- which islands take part (island_method.hpp)
+    IslandSize islands = IslandSize::Usual;  ///< those of the stage that runs, or has run last
+    bool anyUsual = true, anyLarge = false;  ///< islands of that size that are awake
+    IslandSort<S> sort;
     // --- the problem of the sub-step
     JointStep<S> jointStep{};
     ConstraintRows<S> rows;
@@ -47,7 +52,8 @@ class Step {
         int substep = 0;
     };
 
-    Step(WorldParts<S>& world, StepState<S>& state);
+    /// The step of the islands that take part in it now.
+    Step(WorldParts<S>& world, StepState<S>& state, IslandSize islands = IslandSize::Usual);
 
     /// Begins a step of h [s]. Throws EngineError for a size out of range, and where a step has not ended.
     void begin(Real h);
@@ -61,10 +67,19 @@ class Step {
     using Work = void (Step::*)();
 
     template <class Visitor>
-    static void forEachStage(const WorldParts<S>& world, const Visitor& stage);
+    static void forEachStage(const WorldParts<S>& world, const StepState<S>& state, const Visitor& stage);
     void run(Phase phase, int substep, Work work);
     void end();
     void injectFault(Phase phase);
+
+    // --- islands by size
+    void sortIslands();
+    void joinByForces(const Islands& islands);
+    void beginIslands();
+    void pauseOthers();
+    void placeKinematic(int substeps);
+    void resume(std::uint32_t body);
+    void endIslands();
 
     // --- stages
     void findPairs();
@@ -83,6 +98,7 @@ class Step {
     BiasRule<Real> biasRule() const;
     void solveVelocities(int iterations, bool warmStarted);
     void solveImpacts();
+    void countContacts();
     void advanceContacts();
     SleepStep<S> sleepStep();
     void breakJoints();
@@ -93,6 +109,7 @@ class Step {
     // --- parts of both, by the names that the stages use
     const WorldDef<S>& def_;
     StepAlgorithms<S>& algorithms_;
+    IslandMethod<S>& method_;  ///< of the islands that take part
     const Tasks& tasks_;
     BodyArrays<S>& bodies_;
     Contacts<S>& contacts_;

@@ -2,12 +2,15 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/pipeline/step_algorithms.hpp"
 
+#include <algorithm>
+
 #include "engine/ccd/traits.hpp"
 #include "engine/integrators/traits.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
 #include "engine/narrowphase/traits.hpp"
 #include "engine/pipeline/require.hpp"
 #include "engine/solvers/traits.hpp"
+#include "engine/state/prefer_speed.hpp"
 #include "engine/state/settings.hpp"
 
 namespace rigor::engine {
@@ -17,7 +20,7 @@ namespace {
 template <class S>
 void checkChoices(const WorldDef<S>& def, const StepAlgorithms<S>& chosen) {
     const bool solvesImpacts = chosen.restitution->solvesImpacts();
-    require(!chosen.style.positions || !solvesImpacts, "restitution_solver",
+    require(!chosen.usual.style.positions || !solvesImpacts, "restitution_solver",
             "this restitution needs a solver of velocities");
     const SolverTraits& solver = solverTraits(def.solver);
     if (solver.contacts == ContactForm::Rows) return;
@@ -33,10 +36,50 @@ void checkChoices(const WorldDef<S>& def, const StepAlgorithms<S>& chosen) {
 
 /// Bodies move in SIMD where their contacts are solved in SIMD, if all choices can do it.
 template <class S>
-bool movesInBlocks(const WorldDef<S>& def) {
-    return solverTraits(def.solver).contacts == ContactForm::Patches &&
+bool movesInBlocks(const WorldDef<S>& def, const std::string& solver) {
+    return solverTraits(solver).contacts == ContactForm::Patches &&
            integratorTraits(def.integrator).inBlocks && orientationTraits(def.orientationUpdate).inBlocks &&
            rotationTraits(def.rotation).inBlocks && !continuousCollisionTraits(def.continuousCollision).acts;
+}
+
+/// The other choices can be had with contacts as patches, and while the bodies of other islands are paused.
+template <class S>
+bool allowsLargeIslands(const WorldDef<S>& def, const StepAlgorithms<S>& chosen) {
+    return chosen.fault == nullptr && frictionShape(def.friction) == FrictionShape::Cone &&
+           !chosen.restitution->solvesImpacts() && !def.measureResiduals &&
+           !continuousCollisionTraits(def.continuousCollision).acts;
+}
+
+template <class S>
+IslandMethod<S> makeMethod(const WorldDef<S>& def, const std::string& solver) {
+    IslandMethod<S> method;
+    const RotationScheme<S> rotation = findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make();
+    method.motion = {
+        findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make(), rotation,
+        findAlgorithm(orientationUpdateTable<S>(), "orientation_update", def.orientationUpdate).make()};
+    method.solver = findAlgorithm(solverTable<S>(), "solver", solver).make();
+    method.style = method.solver->style();
+    method.contactModel = makeContactModel<S>(solverTraits(solver).contacts);
+    method.substeps = def.substeps > 0 ? def.substeps : method.style.substeps;
+    method.velocityIterations =
+        def.velocityIterations > 0 ? def.velocityIterations : method.style.iterations.value_or(50);
+    method.contactFrequency = def.contactFrequency;
+    method.relinearizedJoints = def.relinearizedJoints;
+    method.cacheTolerance = def.cacheTolerance;
+    if (movesInBlocks<S>(def, solver)) method.motion.moveInBlocks(rotation.gyroscopic);
+    return method;
+}
+
+/// Springs of contact and sub-steps are those of preferSpeed(); joints are linearised, and hold.
+template <class S>
+IslandMethod<S> makeLargeMethod(const WorldDef<S>& def) {
+    WorldDef<S> fast = def;
+    preferSpeed(fast);
+    fast.substeps = std::max(fast.substeps, def.substeps);
+    fast.velocityIterations = 0;
+    fast.cacheTolerance = std::max(fast.cacheTolerance, def.cacheTolerance);
+    if (manifoldTraits(def.manifold).remembers) fast.cacheTolerance = 0;
+    return makeMethod<S>(fast, std::string(solverTraits(def.solver).largeIslands));
 }
 
 }  // namespace
@@ -47,13 +90,8 @@ StepAlgorithms<S>::StepAlgorithms(const WorldDef<S>& def) {
     require(def.gravity.allFinite(), "gravity", "gravity must be finite");
     require(def.cacheTolerance == 0 || !manifoldTraits(def.manifold).remembers, "reuse_manifold",
             "a manifold that remembers needs the narrow phase in every step: reuse distance must be 0");
-    const RotationScheme<S> rotation = findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make();
-    motion = {findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make(), rotation,
-              findAlgorithm(orientationUpdateTable<S>(), "orientation_update", def.orientationUpdate).make()};
+    usual = makeMethod<S>(def, def.solver);
     broadPhase = findAlgorithm(broadPhaseTable<S>(), "broad_phase", def.broadPhase).make();
-    solver = findAlgorithm(solverTable<S>(), "solver", def.solver).make();
-    style = solver->style();
-    contactModel = makeContactModel<S>(solverTraits(def.solver).contacts);
     correction =
         findAlgorithm(positionCorrectionTable<S>(), "position_correction", def.positionCorrection).make();
     ccd =
@@ -68,7 +106,8 @@ StepAlgorithms<S>::StepAlgorithms(const WorldDef<S>& def) {
     narrowPhase = def.customNarrowPhase ? def.customNarrowPhase : makeNarrowPhase<S>(def.narrowPhase);
     makeManifold = findAlgorithm(manifoldTable<S>(), "manifold", def.manifold).make;
     checkChoices<S>(def, *this);
-    if (movesInBlocks<S>(def)) motion.moveInBlocks(rotation.gyroscopic);
+    if (!solverTraits(def.solver).largeIslands.empty() && allowsLargeIslands<S>(def, *this))
+        large = makeLargeMethod<S>(def);
 }
 
 RIGOR_INSTANTIATE_CLASS(StepAlgorithms)

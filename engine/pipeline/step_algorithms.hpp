@@ -5,19 +5,18 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "engine/broadphase/broad_phase.hpp"
 #include "engine/ccd/continuous_collision.hpp"
-#include "engine/contacts/contact_model.hpp"
 #include "engine/core/clone_ptr.hpp"
 #include "engine/faults/fault.hpp"
-#include "engine/integrators/motion.hpp"
 #include "engine/narrowphase/manifolds.hpp"
+#include "engine/pipeline/island_method.hpp"
 #include "engine/sleeping/sleeping.hpp"
 #include "engine/solvers/combine_rules.hpp"
 #include "engine/solvers/position_correction.hpp"
 #include "engine/solvers/restitution.hpp"
-#include "engine/solvers/solver.hpp"
 
 namespace rigor::engine {
 
@@ -29,14 +28,17 @@ struct StepAlgorithms {
     /// range, and for choices that do not go together.
     explicit StepAlgorithms(const WorldDef<S>& def);
 
-    Motion<S> motion;
+    IslandMethod<S>& method(IslandSize islands) { return islands == IslandSize::Large ? *large : usual; }
+    const IslandMethod<S>& method(IslandSize islands) const {
+        return islands == IslandSize::Large ? *large : usual;
+    }
+
+    IslandMethod<S> usual;
+    std::optional<IslandMethod<S>> large;  ///< of large islands, where they have one of their own
     ClonePtr<BroadPhase<S>> broadPhase;
     std::shared_ptr<const NarrowPhase<S>> narrowPhase;
     ManifoldFunction<S> makeManifold = nullptr;
     CombineRule<Real> combineFriction = nullptr, combineRestitution = nullptr;
-    ClonePtr<Solver<S>> solver;
-    SolverStyle<S> style;
-    ClonePtr<ContactModel<S>> contactModel;  ///< the one that the solver takes
     FrictionLaw<S> friction = nullptr;
     ClonePtr<Restitution<S>> restitution;
     ClonePtr<PositionCorrection<S>> correction;

@@ -51,6 +51,7 @@ WorldBodies<S>::WorldBodies() {
     arrays_.wrench.emplace_back();
     arrays_.asleep.push_back(0);
     arrays_.stillTime.push_back(0);
+    arrays_.islands.push_back(IslandSize::Usual);
     arrays_.constants.emplace_back();
     arrays_.constants[0].collides = false;
     arrays_.invMass.push_back(0);
@@ -83,6 +84,7 @@ BodyId WorldBodies<S>::add(const BodyDef<S>& def) {
     arrays_.wrench.emplace_back();
     arrays_.asleep.push_back(0);
     arrays_.stillTime.push_back(0);
+    arrays_.islands.push_back(IslandSize::Usual);
     arrays_.constants.push_back(constants);
     arrays_.invMass.push_back(dynamic ? Real(1) / def.mass : Real(0));
     arrays_.invInertiaLocal.push_back(dynamic ? inverseInertia<S>(constants.inertia) : zeroInertia<S>());
@@ -105,6 +107,7 @@ typename WorldBodies<S>::Removed WorldBodies<S>::remove(BodyId body) {
     fill(arrays_.constants);
     fill(arrays_.asleep);
     fill(arrays_.stillTime);
+    fill(arrays_.islands);
     fill(arrays_.invMass);
     fill(arrays_.invInertiaLocal);
     fill(arrays_.invInertia);

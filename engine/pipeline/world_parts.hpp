@@ -29,7 +29,7 @@ namespace rigor::engine {
 template <class S>
 struct WorldClock {
     double time = 0;                       ///< the sum of all steps [s]
-    typename S::Real lastSubstepSize = 0;  ///< [s]; 0: there was none
+    typename S::Real lastSubstepSize = 0;  ///< that of usual islands [s]; 0: there was none
     std::uint64_t steps = 0;
 };
 
@@ -40,11 +40,9 @@ struct WorldParts {
     /// Throws EngineError for unknown algorithm names and for numbers out of range.
     explicit WorldParts(const WorldDef<S>& definition);
 
-    /// Sub-steps of a step, and most iterations of each: the settings, or the solver's own.
-    int substeps() const { return def.substeps > 0 ? def.substeps : algorithms.style.substeps; }
-    int velocityIterations() const {
-        return def.velocityIterations > 0 ? def.velocityIterations : algorithms.style.iterations.value_or(50);
-    }
+    /// Sub-steps of a step, and most iterations of each: the settings, or the solver's own. Of usual islands.
+    int substeps() const { return algorithms.usual.substeps; }
+    int velocityIterations() const { return algorithms.usual.velocityIterations; }
     /// Length of the last step [s].
     Real lastStepSize() const {
         return clock.steps == 0 ? Real(0) : clock.lastSubstepSize * Real(substeps());

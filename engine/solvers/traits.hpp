@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "engine/core/traits.hpp"
 #include "engine/solvers/solver.hpp"
@@ -67,6 +68,9 @@ struct SolverTraits {
     bool direct = false;            ///< one iteration solves contacts without friction, however many
     StopRule stops = StopRule::Change;
     bool warmStarts = true;  ///< the impulses of the last step matter to it, where WorldDef::warmStarting
+    /// The solver of islands with more contacts than WorldDef::islandContacts (pipeline/island_method.hpp);
+    /// empty: all islands have this one.
+    std::string_view largeIslands = {};
 };
 std::span<const TraitsEntry<SolverTraits>> solverTraitsTable();
 

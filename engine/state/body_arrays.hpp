@@ -12,6 +12,7 @@
 #include "engine/core/ids.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/math/space.hpp"
+#include "engine/state/island_size.hpp"
 
 namespace rigor::engine {
 
@@ -73,6 +74,7 @@ struct BodyArrays {
     std::vector<Wrench<S>> wrench;            ///< acts during the next step, then cleared
     std::vector<std::uint8_t> asleep;         ///< 1: left out of the step (sleep.hpp)
     std::vector<typename S::Real> stillTime;  ///< time at rest, if bodies may sleep [s]
+    std::vector<IslandSize> islands;          ///< size of the island that each had in the last step
     // --- constant
     std::vector<BodyConstants<S>> constants;
     std::vector<typename S::Real> invMass;             ///< [1/kg]; 0 unless dynamic and awake

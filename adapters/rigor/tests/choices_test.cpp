@@ -101,6 +101,12 @@ std::vector<Scene> scenes() {
         }
         all.push_back({"pendulum", s, 1.0 / 120, 100});
     }
+    {  // a row of balls that press on each other, 130 contacts: a large island
+        Scenario s = floored(0.5, 0.0);
+        for (int i = 0; i < 66; ++i)
+            addBody(s, Sphere{0.3}, {0.599 * i - 19.5, 0.299, 0}, 1, even(sphereMoment(1, 0.3)));
+        all.push_back({"row", s, 1.0 / 60, 3});
+    }
     return all;
 }
 

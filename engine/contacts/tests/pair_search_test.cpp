@@ -25,6 +25,7 @@ struct Crowd {
     explicit Crowd(std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {
             bodies.pose.emplace_back();
+            bodies.islands.push_back(IslandSize::Usual);
             bodies.constants.emplace_back().type = BodyType::Dynamic;
             ShapeRecord<Space2d> record;
             record.shape = Sphere<Space2d>{0.5};
@@ -38,7 +39,7 @@ struct Crowd {
         for (Pose<Space2d>& pose : bodies.pose) pose.p += Space2d::Vec(step(random), step(random));
     }
     void find(double margin) {
-        shapes.update(bodies, 0, 0, LookAhead<Space2d>(), Tasks::one());
+        shapes.update(bodies, {}, LookAhead<Space2d>(), Tasks::one());
         search.update(shapes, *broadPhase, margin, Tasks::one());
     }
 };

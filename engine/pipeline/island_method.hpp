@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The method by which a step solves islands and moves their bodies. Most solvers are the method of all
+// islands. One whose traits name a solver for large islands (SolverTraits::largeIslands) has two: an island
+// with more contacts than WorldDef::islandContacts is large. An island that is large stays so until it has
+// fewer than half as many, so that it does not change to and fro.
+//
+// Islands do not act on each other within a step, so the step is made twice, each time of the islands of one
+// method while the bodies of the others are paused (Step::beginIslands). Two bodies that a force connects count
+// as one island here.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/contacts/contact_model.hpp"
+#include "engine/core/clone_ptr.hpp"
+#include "engine/integrators/motion.hpp"
+#include "engine/solvers/solver.hpp"
+#include "engine/state/island_size.hpp"
+#include "engine/state/world_def.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+struct IslandMethod {
+    using Real = typename S::Real;
+
+    ClonePtr<Solver<S>> solver;
+    SolverStyle<S> style;
+    ClonePtr<ContactModel<S>> contactModel;  ///< the one that the solver takes
+    Motion<S> motion;
+    int substeps = 1;            ///< equal parts of a step
+    int velocityIterations = 1;  ///< most iterations of each
+    Real contactFrequency = 0;   ///< of soft contacts [Hz]
+    bool relinearizedJoints = true;
+    Real cacheTolerance = 0;  ///< of the contact cache [m]
+};
+
+/// Which islands of a step are large, and what is needed to pause the others.
+template <class S>
+struct IslandSort {
+    struct Counts {
+        std::uint32_t contacts = 0, large = 0;  ///< large: those that were solved as of a large island
+    };
+    // --- by island
+    std::vector<Counts> counts;
+    std::vector<std::uint8_t> large;
+    // --- by body
+    std::vector<std::uint8_t> paused;  ///< 1: takes no part in the half of the step that runs
+    std::vector<Pose<S>> startPoses;   ///< where the step began
+};
+
+}  // namespace rigor::engine

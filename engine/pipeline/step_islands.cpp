@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The step by island size (island_method.hpp): which islands are large, and pausing of the others.
+//
+// A paused body is like one asleep, but keeps its velocity: no forces, no rows, no motion. Kinematic bodies
+// take part in both halves of the step, each time from where they began, and end where the usual method takes them.
+#include <algorithm>
+#include <utility>
+
+#include "engine/pipeline/step.hpp"
+
+namespace rigor::engine {
+
+/// Sorts the islands by their contacts. Contacts and joints whose island has changed its method keep their
+/// impulses as forces: the sub-steps of the two methods differ in length.
+template <class S>
+void Step<S>::sortIslands() {
+    IslandSort<S>& sort = state_.sort;
+    const Islands& islands = world_.currentIslands();
+    sort.counts.assign(islands.count(), {});
+    const auto islandOf = [&](std::uint32_t a, std::uint32_t b) {
+        return std::min(islands.islandOf(a), islands.islandOf(b));  // kNullIndex is above all
+    };
+    for (const Contact<S>& contact : contacts_.list()) {
+        const std::uint32_t k = islandOf(contact.bodyA, contact.bodyB);
+        if (k == kNullIndex) continue;
+        ++sort.counts[k].contacts;
+        sort.counts[k].large += contact.islands == IslandSize::Large;
+    }
+    const auto most = static_cast<std::uint32_t>(def_.islandContacts);
+    sort.large.assign(islands.count(), 0);
+    bool any = false;
+    for (std::size_t k = 0; k < islands.count(); ++k) {
+        const typename IslandSort<S>::Counts& c = sort.counts[k];
+        sort.large[k] = c.contacts > most || (2 * c.large > c.contacts && 2 * c.contacts > most);
+        any = any || sort.large[k];
+    }
+    if (any) {
+        joinByForces(islands);
+        sort.startPoses.assign(bodies_.pose.begin(), bodies_.pose.end());
+    }
+    state_.anyUsual = state_.anyLarge = false;
+    for (std::size_t k = 0; k < islands.count(); ++k)
+        if (!bodies_.asleep[islands.members(k).front()])
+            (sort.large[k] ? state_.anyLarge : state_.anyUsual) = true;
+    state_.anyUsual = state_.anyUsual || !state_.anyLarge;
+    const auto sizeOf = [&](std::uint32_t a, std::uint32_t b) {
+        const std::uint32_t k = islandOf(a, b);
+        return k != kNullIndex && sort.large[k] ? IslandSize::Large : IslandSize::Usual;
+    };
+    const Real shorter = static_cast<Real>(algorithms_.usual.substeps) / Real(algorithms_.large->substeps);
+    const auto factorTo = [&](IslandSize to) {
+        return to == IslandSize::Large ? shorter : Real(1) / shorter;
+    };
+    for (Contact<S>& contact : contacts_.list()) {
+        const IslandSize size = sizeOf(contact.bodyA, contact.bodyB);
+        if (size == contact.islands) continue;
+        contact.islands = size;
+        for (auto& impulse : contact.impulses) {
+            impulse.normal *= factorTo(size);
+            impulse.friction *= factorTo(size);
+        }
+    }
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i) bodies_.islands[i] = sizeOf(i, i);
+    for (auto& record : joints_.records()) {
+        const IslandSize size = sizeOf(record.joint.a, record.joint.b);
+        if (size == record.islands) continue;
+        record.islands = size;
+        for (Real& impulse : record.impulse) impulse *= factorTo(size);
+    }
+}
+
+/// Islands that forces connect are of one size: each end sees the other where it is at the same time.
+template <class S>
+void Step<S>::joinByForces(const Islands& islands) {
+    IslandSort<S>& sort = state_.sort;
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const auto& record : world_.forces.records()) {
+            const std::uint32_t a = islands.islandOf(record.place.a), b = islands.islandOf(record.place.b);
+            if (a == kNullIndex || b == kNullIndex || sort.large[a] == sort.large[b]) continue;
+            sort.large[a] = sort.large[b] = 1;
+            changed = true;
+        }
+    }
+}
+
+/// Lets the islands of this step's method take part, and pauses the others.
+template <class S>
+void Step<S>::beginIslands() {
+    state_.islands = &method_ == &algorithms_.usual ? IslandSize::Usual : IslandSize::Large;
+    state_.substepSize = state_.size / Real(method_.substeps);
+    state_.lastSubstepSize = world_.clock.lastSubstepSize;
+    if (state_.islands == IslandSize::Large)
+        state_.lastSubstepSize *= Real(algorithms_.usual.substeps) / Real(method_.substeps);
+    motion_.beginStep();
+    if (!state_.anyUsual || !state_.anyLarge) return;
+    pauseOthers();
+    // Kinematic bodies take part with both sizes, each time from where they were.
+    if (state_.islands == IslandSize::Usual) return placeKinematic(0);
+    for (Contact<S>& contact : contacts_.list())  // of rows that are no more
+        if (contact.islands == IslandSize::Usual) contact.block.fill(kNullIndex);
+}
+
+/// Puts kinematic bodies where so many sub-steps of the usual method have taken them.
+template <class S>
+void Step<S>::placeKinematic(int substeps) {
+    const Real h = state_.size / Real(algorithms_.usual.substeps);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (bodies_.constants[i].type != BodyType::Kinematic) continue;
+        bodies_.pose[i] = state_.sort.startPoses[i];
+        for (int k = 0; k < substeps; ++k)
+            algorithms_.usual.motion.carry(bodies_.pose[i], bodies_.velocity[i], h);
+    }
+}
+
+template <class S>
+void Step<S>::pauseOthers() {
+    IslandSort<S>& sort = state_.sort;
+    const Islands& islands = world_.currentIslands();
+    sort.paused.resize(bodies_.size(), 0);
+    const bool large = state_.islands == IslandSize::Large;
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+        if (bodies_.constants[i].type != BodyType::Dynamic) continue;
+        const std::uint32_t k = islands.islandOf(i);
+        const bool takesPart = (k != kNullIndex && sort.large[k]) == large;
+        if (takesPart) {
+            resume(i);
+        } else if (!bodies_.asleep[i]) {
+            sort.paused[i] = 1;
+            bodies_.asleep[i] = 1;
+            bodies_.invMass[i] = 0;
+        }
+    }
+}
+
+template <class S>
+void Step<S>::resume(std::uint32_t body) {
+    if (!std::exchange(state_.sort.paused[body], std::uint8_t(0))) return;
+    bodies_.asleep[body] = 0;
+    bodies_.invMass[body] = Real(1) / bodies_.constants[body].mass;
+}
+
+template <class S>
+void Step<S>::endIslands() {
+    // Where kinematic bodies go does not depend on which islands there are.
+    if (!state_.anyUsual) placeKinematic(algorithms_.usual.substeps);
+    world_.clock.lastSubstepSize = state_.size / Real(algorithms_.usual.substeps);
+    for (std::uint32_t i = 0; i < state_.sort.paused.size(); ++i) resume(i);
+}
+
+#define RIGOR_INSTANTIATE(S)               \
+    template void Step<S>::sortIslands();  \
+    template void Step<S>::beginIslands(); \
+    template void Step<S>::endIslands();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// solver = by_island: small islands move as they do without the large ones, and the other way round.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/pipeline/tests/scene.hpp"
+
+namespace rigor::engine::test {
+namespace {
+
+template <class S>
+class IslandsBySize : public testing::Test {};
+using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
+TYPED_TEST_SUITE(IslandsBySize, Spaces);
+
+constexpr double kStep = 1.0 / 60;
+
+template <class S>
+WorldDef<S> byIsland(int contacts = 6, const std::string& solver = "by_island") {
+    WorldDef<S> def = earth<S>();
+    def.solver = solver;
+    def.islandContacts = contacts;
+    return def;
+}
+
+template <class S>
+void addJointBetween(World<S>& world, BodyId a, BodyId b, double reach) {
+    JointDef<S> joint;
+    joint.bodyA = a;
+    joint.bodyB = b;
+    joint.anchorA = at<S>(reach, 0);
+    joint.anchorB = at<S>(-reach, 0);
+    world.addJoint(joint);
+}
+
+/// A ground that moves up and down, under what is added to it.
+template <class S>
+struct Scene {
+    World<S> world;
+    std::uint32_t stone;
+    BodyId ground;
+    std::vector<BodyId> bodies;
+
+    explicit Scene(const WorldDef<S>& def) : world(def) {
+        using R = typename S::Real;
+        stone = world.addMaterial(R(0.5), R(0));
+        BodyDef<S> lift;
+        lift.type = BodyType::Kinematic;
+        lift.pose.p = at<S>(0, -1);
+        ground = world.addBody(lift);
+        attach<S>(world, ground, Box<S>{S::Vec::Constant(R(1)) + at<S>(29, 0)}, stone);
+    }
+    /// A stack and a pendulum that swings beside it.
+    void addFew() {
+        for (int i = 0; i < 3; ++i)
+            bodies.push_back(addCube<S>(world, -10 + 0.02 * i, 0.25 + 0.5 * i, 0.25, 1, stone));
+        const BodyId bob = addBall<S>(world, -13, 3, 0.1, 1, stone);
+        addJointBetween<S>(world, BodyId{}, bob, 2);
+        bodies.push_back(bob);
+    }
+    /// A row of columns that touch, and two links that hang over its edge.
+    void addMany() {
+        for (int x = 0; x < 4; ++x)
+            for (int y = 0; y < 3; ++y)
+                bodies.push_back(addCube<S>(world, 5 + 0.499 * x, 0.25 + 0.5 * y, 0.25, 1, stone));
+        BodyId last = bodies.back();
+        for (int i = 0; i < 2; ++i) {
+            const BodyId link = addBall<S>(world, 5.499 + 1.497 + 0.5 * i, 1.25, 0.1, 0.2, stone);
+            addJointBetween<S>(world, last, link, 0.25);
+            bodies.push_back(last = link);
+        }
+    }
+    void step(int i) {
+        using R = typename S::Real;
+        world.setVelocity(ground, at<S>(0, 0.3 * std::cos(0.1 * i)), spin<S>(0));
+        world.step(R(kStep));
+    }
+};
+
+template <class S>
+void expectSamePose(const Scene<S>& scene, std::size_t i, const Scene<S>& other, std::size_t j, int step) {
+    const Pose<S> a = scene.world.pose(scene.bodies[i]), b = other.world.pose(other.bodies[j]);
+    ASSERT_EQ(a.p, b.p) << "body " << i << ", step " << step;
+    ASSERT_EQ(toMatrix(a.q), toMatrix(b.q)) << "body " << i << ", step " << step;
+}
+
+TYPED_TEST(IslandsBySize, EitherMovesAsWithoutTheOther) {
+    using S = TypeParam;
+    Scene<S> both(byIsland<S>()), few(byIsland<S>(6, "block")), many(byIsland<S>());
+    both.addFew();
+    both.addMany();
+    few.addFew();
+    many.addMany();
+    for (int i = 0; i < 120; ++i) {
+        both.step(i);
+        few.step(i);
+        many.step(i);
+        for (std::size_t k = 0; k < few.bodies.size(); ++k) expectSamePose(both, k, few, k, i);
+        for (std::size_t k = 0; k < many.bodies.size(); ++k)
+            expectSamePose(both, few.bodies.size() + k, many, k, i);
+        ASSERT_EQ(both.world.pose(both.ground).p, few.world.pose(few.ground).p);
+        ASSERT_EQ(both.world.lastStep().contacts,
+                  few.world.lastStep().contacts + many.world.lastStep().contacts);
+        ASSERT_EQ(both.world.lastStep().rows, few.world.lastStep().rows + many.world.lastStep().rows);
+    }
+    std::vector<ContactView<S>> all, part;
+    both.world.readContacts(all);
+    few.world.readContacts(part);
+    const std::size_t ofFew = part.size();
+    many.world.readContacts(part);
+    EXPECT_EQ(all.size(), ofFew + part.size());
+    double load = 0;
+    for (const ContactView<S>& contact : all)
+        if (contact.bodyA == both.ground) load += static_cast<double>(contact.normalImpulse);
+    EXPECT_GT(load, 0.5 * kStep * kGravity * 15) << "the ground carries all boxes";
+}
+
+/// Large islands are another method: the same scene with `block` alone goes another way.
+TYPED_TEST(IslandsBySize, LargeOnesAreSolvedOtherwise) {
+    using S = TypeParam;
+    Scene<S> many(byIsland<S>()), block(byIsland<S>(6, "block")), above(byIsland<S>(1000));
+    for (Scene<S>* scene : {&many, &block, &above}) scene->addMany();
+    for (int i = 0; i < 30; ++i)
+        for (Scene<S>* scene : {&many, &block, &above}) scene->step(i);
+    EXPECT_NE(many.world.stateHash(), block.world.stateHash());
+    for (std::size_t k = 0; k < block.bodies.size(); ++k) expectSamePose(above, k, block, k, 30);
+}
+
+TYPED_TEST(IslandsBySize, SnapshotsAndStagesGoTheSameWay) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    Scene<S> scene(byIsland<S>());
+    scene.addFew();
+    scene.addMany();
+    for (int i = 0; i < 20; ++i) scene.step(i);
+    std::vector<unsigned char> bytes;
+    scene.world.saveSnapshot(bytes);
+    Scene<S> restored(byIsland<S>());
+    restored.addFew();
+    restored.addMany();
+    restored.world.restoreSnapshot(bytes);
+    for (int i = 0; i < 20; ++i) {
+        scene.world.step(R(kStep));
+        restored.world.beginStep(R(kStep));
+        while (restored.world.stepping()) restored.world.runPhase();
+        ASSERT_EQ(scene.world.stateHash(), restored.world.stateHash()) << "step " << i;
+    }
+}
+
+/// The fastest that a box of a column has moved while boxes were put on it one by one [m/s], and the load of the
+/// ground relative to the column's weight at the end.
+template <class S>
+std::pair<double, double> growColumn(const WorldDef<S>& def) {
+    using R = typename S::Real;
+    Scene<S> scene(def);
+    std::vector<BodyId> column;
+    double fastest = 0;
+    for (int i = 0; i < 12; ++i) {
+        const double top = i == 0 ? -0.25 : static_cast<double>(scene.world.pose(column.back()).p[1]);
+        column.push_back(addCube<S>(scene.world, 0, top + 0.5, 0.25, 1, scene.stone));
+        for (int k = 0; k < 20; ++k) {
+            scene.world.setVelocity(scene.ground, S::Vec::Zero(), spin<S>(0));
+            scene.world.step(R(kStep));
+            for (const BodyId box : column)
+                fastest = std::max(fastest, std::abs(static_cast<double>(scene.world.velocity(box)[1])));
+        }
+    }
+    std::vector<ContactView<S>> contacts;
+    scene.world.readContacts(contacts);
+    double load = 0;
+    for (const ContactView<S>& contact : contacts)
+        if (contact.bodyA == scene.ground || contact.bodyB == scene.ground)
+            load += static_cast<double>(contact.normalImpulse);
+    return {fastest, load / (kStep * kGravity * 12)};
+}
+
+/// A column grows over the threshold: impulses pass from one method to the other as forces. The boxes sink to where
+/// soft contacts carry them, more slowly than one step of free fall would let them.
+TYPED_TEST(IslandsBySize, ChangeTheirMethodWithoutAJolt) {
+    using S = TypeParam;
+    const auto [fastest, load] = growColumn<S>(byIsland<S>(8));
+    EXPECT_LT(fastest, kStep * kGravity);
+    EXPECT_NEAR(load, 1, 2e-3);
+}
+
+/// A spring between two islands sees both ends at the same time: it adds no momentum.
+TYPED_TEST(IslandsBySize, ForcesJoinThem) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    WorldDef<S> def = byIsland<S>(1);
+    def.gravity.setZero();
+    Scene<S> scene(def);
+    std::vector<BodyId> bodies;
+    for (int i = 0; i < 4; ++i) bodies.push_back(addCube<S>(scene.world, 0.5 * i, 5, 0.25, 1, scene.stone));
+    bodies.push_back(addBall<S>(scene.world, -3, 5, 0.2, 1, scene.stone));
+    LinearSpring<S> spring;
+    spring.bodyA = bodies.front();
+    spring.bodyB = bodies.back();
+    spring.stiffness = 40;
+    spring.restLength = 1;
+    scene.world.addForce(spring);
+    for (int i = 0; i < 60; ++i) {
+        scene.world.step(R(kStep));
+        double momentum = 0, speed = 0;
+        for (const BodyId body : bodies) {
+            momentum += static_cast<double>(scene.world.velocity(body)[0]);
+            speed = std::max(speed, std::abs(static_cast<double>(scene.world.velocity(body)[0])));
+        }
+        ASSERT_NEAR(momentum, 0, tol<S>(1e-6, 1e-5) * std::max(speed, 1.0)) << "step " << i;
+    }
+}
+
+/// Choices that need contacts as rows leave all islands to one method.
+TYPED_TEST(IslandsBySize, GiveWayToChoicesThatNeedRows) {
+    using S = TypeParam;
+    const auto run = [](WorldDef<S> def) {
+        Scene<S> scene(def);
+        scene.addMany();
+        for (int i = 0; i < 20; ++i) scene.step(i);
+        return scene.world.stateHash();
+    };
+    const auto set = [](WorldDef<S> def, int choice) {
+        if (choice == 0) def.friction = "pyramid";
+        if (choice == 1) def.restitution = "poisson";
+        if (choice == 2) def.measureResiduals = true;
+        if (choice == 3) def.fault = "flipped_normal";
+        if (choice == 4) def.continuousCollision = "conservative_advancement";
+        return def;
+    };
+    for (int choice = 0; choice < 5; ++choice)
+        EXPECT_EQ(run(set(byIsland<S>(), choice)), run(set(byIsland<S>(6, "block"), choice))) << choice;
+}
+
+}  // namespace
+}  // namespace rigor::engine::test
