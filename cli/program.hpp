@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the programs of this folder share. There are two: `rigor` has every command; `rigor-validate` has those
+// Here is what the programs of this folder share. There are two: `rigor` has every command; `rigor-validate` has those
 // that run scenarios and report, so that a first `./rigor validate` compiles no more than it needs.
 #pragma once
 

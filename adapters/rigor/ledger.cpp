@@ -47,6 +47,7 @@ class Ledger {
         addPrecision();
         addMotion();
         addSolver();
+        addLargeIslands();
         addFriction();
         addRestitution();
         addContacts();
@@ -116,6 +117,36 @@ class Ledger {
             add("warm_starting", "on", "off", "this solver begins every sub-step without impulses");
         else
             add("warm_starting", text("warm_starting"), text("warm_starting"));
+    }
+
+    /// Contacts are rigid unless an island may have more than the solver's usual method takes.
+    void addLargeIslands() {
+        if (solver_.largeIslands.empty()) return;
+        const int most = integerSetting(settings_, "island_contacts");
+        const std::string other =
+            "by " + std::string(solver_.largeIslands) + ", with the settings of preset=fast";
+        if (mayTouchMoreThan(most))
+            add("large_islands", "solved as small ones",
+                "those of more than " + std::to_string(most) + " contacts " + other,
+                "their contacts are damped springs in single precision that carry loads by overlap, with "
+                "friction of "
+                "each patch as a whole, and their joints are linearised");
+        else
+            add("large_islands", "solved as small ones", "none: the bodies cannot have so many contacts");
+    }
+    /// False if all pairs of shapes together are no more contacts than that.
+    bool mayTouchMoreThan(int contacts) const {
+        std::size_t moving = 0, fixed = 0;
+        for (const scenario::Body& body : scenario_.bodies) {
+            if (!body.collides) continue;
+            for (const scenario::Shape& shape : body.shapes)
+                if (std::holds_alternative<scenario::Chain>(shape.geometry) ||
+                    std::holds_alternative<scenario::TriangleMesh>(shape.geometry) ||
+                    std::holds_alternative<scenario::HeightField>(shape.geometry))
+                    return true;  // a contact for each piece
+            (body.type == scenario::BodyType::Dynamic ? moving : fixed) += body.shapes.size();
+        }
+        return moving > 0 && moving * (moving - 1) / 2 + moving * fixed > static_cast<std::size_t>(contacts);
     }
 
     void addFriction() {
