@@ -48,6 +48,9 @@ struct Integrator {
     MoveBodies<S> move = nullptr;
     bool movesWithSolvedVelocity = true;  ///< constraints of this step already act on this step's motion
     AdvanceFlow<S> advance = nullptr;
+    /// Bodies move by the first half of the step before contacts are found and forces act, by the other half
+    /// with the solved velocities.
+    bool atMidpoint = false;
 };
 template <class S>
 using IntegratorFactory = Integrator<S> (*)();

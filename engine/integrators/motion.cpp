@@ -34,12 +34,54 @@ void Motion<S>::kick(BodyArrays<S>& bodies, const Load<S>& load, Real h, const T
 }
 
 template <class S>
+void Motion<S>::drift(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
+    const Real half = moveTime(h);
+    drifted_.assign(bodies.velocity.begin(), bodies.velocity.end());
+    startRotations_.resize(bodies.size());
+    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
+        startRotations_[i] = bodies.pose[i].q;
+        if (bodies.invMass[i] > 0)
+            drifted_[i].w =
+                rotation_.predict(bodies.constants[i], bodies.pose[i].q, bodies.velocity[i].w, half);
+    });
+    moveWith<S>(bodies, drifted_, half, turn_, tasks);
+    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
+        if (bodies.invMass[i] == 0) return;
+        Ang& w = bodies.velocity[i].w;
+        const Ang& mean = drifted_[i].w;
+        w = rotation_.finish
+                ? rotation_.finish(bodies.constants[i], startRotations_[i], bodies.pose[i].q, w, mean, mean)
+                : mean;
+    });
+}
+
+/// Fills wrench_. At the midpoint the forces are evaluated again, with the velocities that they lead to there.
+template <class S>
+void Motion<S>::evaluateForces(const BodyArrays<S>& bodies, const Load<S>& load, Real h) {
+    wrench_.assign(bodies.wrench.begin(), bodies.wrench.end());
+    if (!load.forces || load.forces->size() == 0) return;
+    const double begin = load.time, end = load.time + static_cast<double>(h);
+    load.forces->evaluate({begin, end, bodies.pose, bodies.velocity, wrench_});
+    if (!integrator_.atMidpoint) return;
+    middle_.assign(bodies.velocity.begin(), bodies.velocity.end());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (bodies.invMass[i] == 0) continue;
+        const BodyConstants<S>& body = bodies.constants[i];
+        const DampedStep<Real> linear = dampedStep(body.linearVelocityKept, moveTime(h));
+        const DampedStep<Real> angular = dampedStep(body.angularVelocityKept, moveTime(h));
+        const Vec acceleration = body.gravityScale * load.gravity + bodies.invMass[i] * wrench_[i].force;
+        middle_[i].v = linear.kept * middle_[i].v + linear.kick * acceleration;
+        middle_[i].w =
+            angular.kept * middle_[i].w + angular.kick * Ang(bodies.invInertia[i] * wrench_[i].torque);
+    }
+    wrench_.assign(bodies.wrench.begin(), bodies.wrench.end());
+    load.forces->evaluate({begin, end, bodies.pose, middle_, wrench_});
+}
+
+template <class S>
 void Motion<S>::kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks) {
     const std::size_t n = bodies.size();
-    wrench_.assign(bodies.wrench.begin(), bodies.wrench.end());
-    if (load.forces)
-        load.forces->evaluate(
-            {load.time, load.time + static_cast<double>(h), bodies.pose, bodies.velocity, wrench_});
+    evaluateForces(bodies, load, h);
     kicked_.resize(n);
     predicted_.resize(n);
     tasks.forEach(n, kBodyGrain, [&](std::size_t i) {
@@ -63,8 +105,23 @@ void Motion<S>::move(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
         blocks_.move(bodies, used_, h, tasks);
     else if (integrator_.advance)
         moveAlongFlow(bodies, h, tasks);
-    else
-        integrator_.move(bodies, start_, used_, h, turn_, tasks);
+    else {
+        if (integrator_.atMidpoint) predictMove(bodies, moveTime(h), tasks);
+        integrator_.move(bodies, start_, used_, moveTime(h), turn_, tasks);
+    }
+}
+
+/// Constraints have acted on the mean velocities of free rotation from this midpoint to the next; the bodies
+/// move over the half step h with its own.
+template <class S>
+void Motion<S>::predictMove(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
+    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
+        if (bodies.invMass[i] == 0) return;
+        Ang& w = bodies.velocity[i].w;
+        // The same to the bit where there is no gyroscopic term.
+        kicked_[i] = kicked_[i] == predicted_[i] ? w : Ang(kicked_[i] + (w - predicted_[i]));
+        w = predicted_[i] = rotation_.predict(bodies.constants[i], bodies.pose[i].q, kicked_[i], h);
+    });
 }
 
 namespace {

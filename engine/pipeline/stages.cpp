@@ -71,8 +71,24 @@ constexpr double kMostWork = 0.01;
 
 }  // namespace
 
+/// The first half of a (sub-)step at the midpoint.
+template <class S>
+void Step<S>::drift() {
+    if (!motion_.isAtMidpoint()) return;
+    const bool begins = state_.substep == 0;
+    if (begins) contacts_.beginWays(bodies_, tasks_);
+    algorithms_.ccd->remember(bodies_);
+    motion_.drift(bodies_, state_.substepSize, tasks_);
+    if (begins)
+        contacts_.keepSides(bodies_, tasks_);
+    else
+        contactModel_.advance(contacts_.list(), motion_.drifted(), motion_.moveTime(state_.substepSize),
+                              tasks_);
+}
+
 template <class S>
 void Step<S>::findPairs() {
+    drift();
     ContinuousCollision<S>& ccd = *algorithms_.ccd;
     BroadPhase<S>& broadPhase = *algorithms_.broadPhase;
     ccd.predict(bodies_, contacts_.shapes().records(), def_.gravity, state_.size);
@@ -102,6 +118,7 @@ template <class S>
 void Step<S>::makeRows() {
     const Real h = state_.substepSize;
     const bool begins = state_.substep == 0;
+    if (!begins) drift();
     const bool inertiaHolds =
         contactModel_.keepsInertia() && joints_.records().empty() && motion_.inertiaHolds();
     if (begins || !inertiaHolds) Motion<S>::setInertia(bodies_, tasks_);
@@ -167,7 +184,7 @@ void Step<S>::solveImpacts() {
 template <class S>
 void Step<S>::kick() {
     const double now = world_.clock.time + state_.substep * static_cast<double>(state_.substepSize);
-    algorithms_.ccd->remember(bodies_);
+    if (!motion_.isAtMidpoint()) algorithms_.ccd->remember(bodies_);
     motion_.kick(bodies_, {def_.gravity, &world_.forces, now}, state_.substepSize, tasks_);
     algorithms_.ccd->rememberKick(bodies_);
 }
@@ -239,7 +256,7 @@ void Step<S>::relax() {
 
 template <class S>
 void Step<S>::solvePositions() {
-    const Real h = state_.substepSize;
+    const Real h = motion_.moveTime(state_.substepSize);
     StepMonitor<S> monitor(joints_, bodies_, state_.jointStep, rows_, Real(0), def_.measureResiduals,
                            state_.observer, state_.residuals);
     StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h,
@@ -262,14 +279,15 @@ void Step<S>::solvePositions() {
 
 template <class S>
 void Step<S>::correct() {
-    const Real h = state_.substepSize;
+    const Real h = state_.substepSize, moved = motion_.moveTime(h);
     const bool last = state_.substep + 1 == world_.substeps();
     joints_.storeImpulses(bodies_, rows_);
     contactModel_.store(contacts_.list(), rows_, last, tasks_);
     if (!algorithms_.style.ownsCorrection) {
         // Slower than this a contact is as good as resting, and its overlap is corrected.
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
-        StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, state_.positions);
+        StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), moved, separating,
+                                   state_.positions);
         algorithms_.correction->correct(positions, def_.positionIterations, def_.slop);
     }
     motion_.finish(bodies_, h, tasks_);
@@ -285,7 +303,7 @@ void Step<S>::advanceContacts() {
     if (corrected)
         contactModel_.advance(contacts_.list(), state_.positions.motion, Real(1), tasks_);
     else
-        contactModel_.advance(contacts_.list(), motion_.used(), state_.substepSize, tasks_);
+        contactModel_.advance(contacts_.list(), motion_.used(), motion_.moveTime(state_.substepSize), tasks_);
 }
 
 #define RIGOR_INSTANTIATE(S)                 \

@@ -67,6 +67,7 @@ class Step {
     void injectFault(Phase phase);
 
     // --- stages
+    void drift();
     void findPairs();
     void findManifolds();
     void makeRows();
