@@ -114,12 +114,12 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
 
     /// ways_ hold the starts; now the velocities that lead from there to where the bodies are.
     void takeWays(const MovedWorld<S>& world) {
+        const auto used = world.motion.used();
         for (std::size_t i = 0; i < ways_.size(); ++i) {
             Way& way = ways_[i];
             way.velocity = {};
             if (world.bodies.constants[i].type == BodyType::Static) continue;
-            way.velocity =
-                straightVelocity<S>(way.start, world.bodies.pose[i], world.motion.meanUsed(i), world.h);
+            way.velocity = straightVelocity<S>(way.start, world.bodies.pose[i], used[i], world.h);
         }
     }
 
@@ -254,7 +254,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
             Pose<S>& X = world.bodies.pose[i];
             const Real rest = world.h - way.begin;
             X = movedPose<S>(way.start, way.velocity, rest);
-            world.motion.replaceMeanUsed(
+            world.motion.replaceUsed(
                 i, {Vec((X.p - way.origin) / world.h), Ang((way.turned + rest * way.velocity.w) / world.h)});
         }
     }

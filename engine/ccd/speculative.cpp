@@ -104,7 +104,7 @@ class Speculative final : public ContinuousCollision<S> {
             const ShapeRecord<S>& record = shapes[shape];
             const std::uint32_t i = record.body;
             const Velocity<S> v =
-                straightVelocity<S>(starts_[i], world.bodies.pose[i], world.motion.meanUsed(i), world.h);
+                straightVelocity<S>(starts_[i], world.bodies.pose[i], world.motion.used()[i], world.h);
             return MovingShape<S>{&record.shape,         record.local,          starts_[i], v,
                                   record.boundingRadius, record.inscribedRadius};
         };
@@ -118,7 +118,7 @@ class Speculative final : public ContinuousCollision<S> {
                 const Velocity<S> v = (i == contact.bodyA ? a : b).velocity;
                 const Real share = impact.time / world.h;
                 world.bodies.pose[i] = movedPose<S>(starts_[i], v, impact.time);
-                world.motion.replaceMeanUsed(i, {Vec(share * v.v), typename S::Ang(share * v.w)});
+                world.motion.replaceUsed(i, {Vec(share * v.v), typename S::Ang(share * v.w)});
             }
         }
         return true;

@@ -64,7 +64,7 @@ class Contacts {
     /// Pairs of boxes that overlap.
     const std::vector<ProxyPair>& pairs() const { return pairs_.overlapping(shapes_); }
 
-    /// Called before bodies move and contacts are found: keepSides() then refers to where they are now.
+    /// keepSides() then refers to where the bodies are now.
     void beginWays(const BodyArrays<S>& bodies, const Tasks& tasks) {
         if (!shapes_.surfaces().empty()) shapes_.update(bodies, typename S::Real(0), LookAhead<S>{}, tasks);
     }

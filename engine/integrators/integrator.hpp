@@ -48,8 +48,7 @@ struct Integrator {
     MoveBodies<S> move = nullptr;
     bool movesWithSolvedVelocity = true;  ///< constraints of this step already act on this step's motion
     AdvanceFlow<S> advance = nullptr;
-    /// Bodies move by the first half of the step before contacts are found and forces act, by the other half
-    /// with the solved velocities.
+    /// Steps lead from midpoint to midpoint (Motion::toMidpoint, toEnd).
     bool atMidpoint = false;
 };
 template <class S>

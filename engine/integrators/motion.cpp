@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/integrators/motion.hpp"
 
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,60 @@ void Motion<S>::setInertia(BodyArrays<S>& bodies, const Tasks& tasks) {
     tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
         if (bodies.invMass[i] > 0)
             bodies.invInertia[i] = worldInertia<S>(bodies.pose[i].q, bodies.invInertiaLocal[i]);
+    });
+}
+
+/// Angular velocity after a free rotation from q0, where it is w, to q1 with the mean velocity `mean`.
+template <class S>
+typename S::Ang Motion<S>::velocityAfter(const BodyConstants<S>& body, const typename S::Rot& q0,
+                                         const typename S::Rot& q1, const Ang& w, const Ang& mean) const {
+    return rotation_.finish ? rotation_.finish(body, q0, q1, w, mean, mean) : mean;
+}
+
+template <class S>
+bool Motion<S>::toMidpoint(BodyArrays<S>& bodies, Real half, bool same, const Tasks& tasks) {
+    const std::size_t n = bodies.size();
+    Midpoints<S>& midpoints = bodies.midpoints;
+    midpoints.pose.resize(n);
+    midpoints.velocity.resize(n);
+    midpoints.valid.resize(n, 0);
+    std::atomic<bool> found = false;
+    tasks.forEach(n, kBodyGrain, [&](std::size_t i) {
+        if (bodies.constants[i].type == BodyType::Static || bodies.asleep[i]) return;
+        Pose<S>& X = bodies.pose[i];
+        Velocity<S>& velocity = bodies.velocity[i];
+        if (same && midpoints.valid[i]) {
+            X = midpoints.pose[i];
+            velocity = midpoints.velocity[i];
+            return;
+        }
+        found = true;
+        const typename S::Rot q0 = X.q;
+        const bool dynamic = bodies.invMass[i] > 0;
+        const Ang mean = dynamic ? rotation_.predict(bodies.constants[i], q0, velocity.w, half) : velocity.w;
+        X.p += half * velocity.v;
+        X.q = turn_(q0, Ang(half * mean));
+        if (dynamic) velocity.w = velocityAfter(bodies.constants[i], q0, X.q, velocity.w, mean);
+    });
+    return found;
+}
+
+template <class S>
+void Motion<S>::toEnd(BodyArrays<S>& bodies, std::span<const Velocity<S>> way, Real half,
+                      const Tasks& tasks) {
+    Midpoints<S>& midpoints = bodies.midpoints;
+    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
+        midpoints.valid[i] = 0;
+        if (bodies.constants[i].type == BodyType::Static || bodies.asleep[i]) return;
+        Pose<S>& X = bodies.pose[i];
+        Velocity<S>& velocity = bodies.velocity[i];
+        midpoints.pose[i] = X;
+        midpoints.velocity[i] = velocity;
+        midpoints.valid[i] = 1;
+        X.p -= half * way[i].v;
+        X.q = turn_(X.q, Ang(-half * way[i].w));
+        if (bodies.invMass[i] > 0)
+            velocity.w = velocityAfter(bodies.constants[i], midpoints.pose[i].q, X.q, velocity.w, velocity.w);
     });
 }
 
@@ -33,29 +88,7 @@ void Motion<S>::kick(BodyArrays<S>& bodies, const Load<S>& load, Real h, const T
         if (bodies.invMass[i] > 0) bodies.velocity[i] = flow_.velocity[i];
 }
 
-template <class S>
-void Motion<S>::drift(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
-    const Real half = moveTime(h);
-    drifted_.assign(bodies.velocity.begin(), bodies.velocity.end());
-    startRotations_.resize(bodies.size());
-    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
-        startRotations_[i] = bodies.pose[i].q;
-        if (bodies.invMass[i] > 0)
-            drifted_[i].w =
-                rotation_.predict(bodies.constants[i], bodies.pose[i].q, bodies.velocity[i].w, half);
-    });
-    moveWith<S>(bodies, drifted_, half, turn_, tasks);
-    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
-        if (bodies.invMass[i] == 0) return;
-        Ang& w = bodies.velocity[i].w;
-        const Ang& mean = drifted_[i].w;
-        w = rotation_.finish
-                ? rotation_.finish(bodies.constants[i], startRotations_[i], bodies.pose[i].q, w, mean, mean)
-                : mean;
-    });
-}
-
-/// Fills wrench_. At the midpoint the forces are evaluated again, with the velocities that they lead to there.
+/// Fills wrench_. At the midpoint forces are evaluated again, with the velocities that they lead to there.
 template <class S>
 void Motion<S>::evaluateForces(const BodyArrays<S>& bodies, const Load<S>& load, Real h) {
     wrench_.assign(bodies.wrench.begin(), bodies.wrench.end());
@@ -63,12 +96,13 @@ void Motion<S>::evaluateForces(const BodyArrays<S>& bodies, const Load<S>& load,
     const double begin = load.time, end = load.time + static_cast<double>(h);
     load.forces->evaluate({begin, end, bodies.pose, bodies.velocity, wrench_});
     if (!integrator_.atMidpoint) return;
+    const Real half = Real(0.5) * h;
     middle_.assign(bodies.velocity.begin(), bodies.velocity.end());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies.invMass[i] == 0) continue;
         const BodyConstants<S>& body = bodies.constants[i];
-        const DampedStep<Real> linear = dampedStep(body.linearVelocityKept, moveTime(h));
-        const DampedStep<Real> angular = dampedStep(body.angularVelocityKept, moveTime(h));
+        const DampedStep<Real> linear = dampedStep(body.linearVelocityKept, half);
+        const DampedStep<Real> angular = dampedStep(body.angularVelocityKept, half);
         const Vec acceleration = body.gravityScale * load.gravity + bodies.invMass[i] * wrench_[i].force;
         middle_[i].v = linear.kept * middle_[i].v + linear.kick * acceleration;
         middle_[i].w =
@@ -105,23 +139,8 @@ void Motion<S>::move(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
         blocks_.move(bodies, used_, h, tasks);
     else if (integrator_.advance)
         moveAlongFlow(bodies, h, tasks);
-    else {
-        if (integrator_.atMidpoint) predictMove(bodies, moveTime(h), tasks);
-        integrator_.move(bodies, start_, used_, moveTime(h), turn_, tasks);
-    }
-}
-
-/// Constraints have acted on the mean velocities of free rotation from this midpoint to the next; the bodies
-/// move over the half step h with its own.
-template <class S>
-void Motion<S>::predictMove(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
-    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
-        if (bodies.invMass[i] == 0) return;
-        Ang& w = bodies.velocity[i].w;
-        // The same to the bit where there is no gyroscopic term.
-        kicked_[i] = kicked_[i] == predicted_[i] ? w : Ang(kicked_[i] + (w - predicted_[i]));
-        w = predicted_[i] = rotation_.predict(bodies.constants[i], bodies.pose[i].q, kicked_[i], h);
-    });
+    else
+        integrator_.move(bodies, start_, used_, h, turn_, tasks);
 }
 
 namespace {

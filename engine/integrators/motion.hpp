@@ -28,10 +28,15 @@ class Motion {
     Motion(const Integrator<S>& integrator, const RotationScheme<S>& rotation, TurnRotation<S> turn)
         : integrator_(integrator), rotation_(rotation), turn_(turn) {}
 
-    /// The first half of each (sub-)step is drift(), before contacts are found.
+    /// Steps lead from midpoint to midpoint: toMidpoint() before anything else, toEnd() after it.
     bool isAtMidpoint() const { return integrator_.atMidpoint; }
-    /// Length of move() in a (sub-)step of h [s].
-    Real moveTime(Real h) const { return integrator_.atMidpoint ? Real(0.5) * h : h; }
+    /// Moves bodies from the end of the last step to their midpoints: `half` [s] on. The midpoints that are known
+    /// count if `same`: the last (sub-)step was as long. True: some were not known.
+    bool toMidpoint(BodyArrays<S>& bodies, Real half, bool same, const Tasks& tasks = Tasks::one());
+    /// Takes the bodies' poses and velocities for their next midpoints and moves the bodies back by `half` [s]:
+    /// to the end of the step. `way` are their velocities since the midpoint before.
+    void toEnd(BodyArrays<S>& bodies, std::span<const Velocity<S>> way, Real half,
+               const Tasks& tasks = Tasks::one());
     /// Constraints of a step already act on the motion of that step.
     bool movesWithSolvedVelocity() const { return integrator_.movesWithSolvedVelocity; }
 
@@ -50,21 +55,12 @@ class Motion {
     /// World inertia of every body at its present pose. Before rows are made and before kick().
     static void setInertia(BodyArrays<S>& bodies, const Tasks& tasks = Tasks::one());
 
-    /// Moves every body over the first half of h with its own velocity; only where isAtMidpoint().
-    void drift(BodyArrays<S>& bodies, Real h, const Tasks& tasks = Tasks::one());
-    /// The velocities of the last drift().
-    std::span<const Velocity<S>> drifted() const { return drifted_; }
     /// Velocities after h [s] of forces alone. Wrenches are read, not cleared: they last all sub-steps.
     void kick(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks = Tasks::one());
-    /// Moves every body over h, or over its second half.
+    /// Moves every body over h.
     void move(BodyArrays<S>& bodies, Real h, const Tasks& tasks = Tasks::one());
-    /// The velocities of the last move(), over moveTime(h).
+    /// The velocities of the last move().
     std::span<const Velocity<S>> used() const { return used_; }
-    /// Mean velocity of a body's way over the whole (sub-)step.
-    Velocity<S> meanUsed(std::size_t i) const {
-        if (!integrator_.atMidpoint) return used_[i];
-        return {Real(0.5) * (drifted_[i].v + used_[i].v), Real(0.5) * (drifted_[i].w + used_[i].w)};
-    }
     /// Orientations before the last move(), by dense index.
     std::span<const typename S::Rot> startRotations() const { return startRotations_; }
     /// Called after poses have changed for the last time, by move() of h and position correction.
@@ -76,13 +72,8 @@ class Motion {
     /// Called after a body's velocity has changed with `rest` [s] of its motion left. The caller moves the
     /// body with its new velocity; finish() then refers to that rest.
     void resume(BodyArrays<S>& bodies, std::size_t i, Real rest);
-    /// Sets used() so that meanUsed() is that of the way that the body has taken in the end.
-    void replaceMeanUsed(std::size_t i, const Velocity<S>& mean) {
-        used_[i] = mean;
-        if (!integrator_.atMidpoint) return;
-        used_[i].v += mean.v - drifted_[i].v;
-        used_[i].w += mean.w - drifted_[i].w;
-    }
+    /// used() as it would be for the way that the body has taken in the end.
+    void replaceUsed(std::size_t i, const Velocity<S>& velocity) { used_[i] = velocity; }
 
   private:
     bool goesInBlocks(const Load<S>& load) const {
@@ -90,7 +81,8 @@ class Motion {
     }
     void kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks);
     void evaluateForces(const BodyArrays<S>& bodies, const Load<S>& load, Real h);
-    void predictMove(BodyArrays<S>& bodies, Real h, const Tasks& tasks);
+    Ang velocityAfter(const BodyConstants<S>& body, const typename S::Rot& q0, const typename S::Rot& q1,
+                      const Ang& w, const Ang& mean) const;
     void moveAlongFlow(BodyArrays<S>& bodies, Real h, const Tasks& tasks);
 
     Integrator<S> integrator_{};
@@ -98,7 +90,7 @@ class Motion {
     TurnRotation<S> turn_ = nullptr;
     // --- recomputed every sub-step
     std::vector<Velocity<S>> start_;  ///< velocities before kick()
-    std::vector<Velocity<S>> used_, drifted_;
+    std::vector<Velocity<S>> used_;
     std::vector<Velocity<S>> middle_;  ///< velocities in the middle of the step, for forces
     std::vector<Ang> kicked_;          ///< angular velocities with forces, without the gyroscopic term
     std::vector<Ang> predicted_;       ///< angular velocities with the gyroscopic term, before constraints

@@ -71,24 +71,46 @@ constexpr double kMostWork = 0.01;
 
 }  // namespace
 
-/// The first half of a (sub-)step at the midpoint.
+/// Integrators that step from midpoint to midpoint begin there.
 template <class S>
-void Step<S>::drift() {
-    if (!motion_.isAtMidpoint()) return;
-    const bool begins = state_.substep == 0;
-    if (begins) contacts_.beginWays(bodies_, tasks_);
-    algorithms_.ccd->remember(bodies_);
-    motion_.drift(bodies_, state_.substepSize, tasks_);
-    if (begins)
-        contacts_.keepSides(bodies_, tasks_);
-    else
-        contactModel_.advance(contacts_.list(), motion_.drifted(), motion_.moveTime(state_.substepSize),
-                              tasks_);
+void Step<S>::toMidpoint() {
+    const Real h = state_.substepSize;
+    contacts_.beginWays(bodies_, tasks_);
+    if (!motion_.toMidpoint(bodies_, Real(0.5) * h, world_.clock.lastSubstepSize == h, tasks_)) return;
+    contacts_.keepSides(bodies_, tasks_);
+    putJointsRight();
+}
+
+/// They show the state between two midpoints.
+template <class S>
+void Step<S>::toEnd() {
+    const Real h = state_.substepSize;
+    std::span<const Velocity<S>> way = motion_.used();
+    if (algorithms_.style.positions) {
+        state_.way.resize(bodies_.size());
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            const Velocity<S>& moved = state_.positions.motion[i];
+            state_.way[i] = {typename S::Vec(moved.v / h), Ang(moved.w / h)};
+        }
+        way = state_.way;
+    }
+    motion_.toEnd(bodies_, way, Real(0.5) * h, tasks_);
+    putJointsRight();
+}
+
+/// Position correction of joints alone, where the bodies are.
+template <class S>
+void Step<S>::putJointsRight() {
+    if (joints_.records().empty() || algorithms_.style.ownsCorrection) return;
+    state_.still.assign(bodies_.size(), Velocity<S>{});
+    StepPositions<S> positions(bodies_, joints_, state_.noContacts, state_.still, state_.substepSize, Real(0),
+                               state_.positions);
+    algorithms_.correction->correct(positions, def_.positionIterations, def_.slop);
 }
 
 template <class S>
 void Step<S>::findPairs() {
-    drift();
+    if (motion_.isAtMidpoint()) toMidpoint();
     ContinuousCollision<S>& ccd = *algorithms_.ccd;
     BroadPhase<S>& broadPhase = *algorithms_.broadPhase;
     ccd.predict(bodies_, contacts_.shapes().records(), def_.gravity, state_.size);
@@ -118,7 +140,6 @@ template <class S>
 void Step<S>::makeRows() {
     const Real h = state_.substepSize;
     const bool begins = state_.substep == 0;
-    if (!begins) drift();
     const bool inertiaHolds =
         contactModel_.keepsInertia() && joints_.records().empty() && motion_.inertiaHolds();
     if (begins || !inertiaHolds) Motion<S>::setInertia(bodies_, tasks_);
@@ -184,7 +205,7 @@ void Step<S>::solveImpacts() {
 template <class S>
 void Step<S>::kick() {
     const double now = world_.clock.time + state_.substep * static_cast<double>(state_.substepSize);
-    if (!motion_.isAtMidpoint()) algorithms_.ccd->remember(bodies_);
+    algorithms_.ccd->remember(bodies_);
     motion_.kick(bodies_, {def_.gravity, &world_.forces, now}, state_.substepSize, tasks_);
     algorithms_.ccd->rememberKick(bodies_);
 }
@@ -256,7 +277,7 @@ void Step<S>::relax() {
 
 template <class S>
 void Step<S>::solvePositions() {
-    const Real h = motion_.moveTime(state_.substepSize);
+    const Real h = state_.substepSize;
     StepMonitor<S> monitor(joints_, bodies_, state_.jointStep, rows_, Real(0), def_.measureResiduals,
                            state_.observer, state_.residuals);
     StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h,
@@ -279,15 +300,14 @@ void Step<S>::solvePositions() {
 
 template <class S>
 void Step<S>::correct() {
-    const Real h = state_.substepSize, moved = motion_.moveTime(h);
+    const Real h = state_.substepSize;
     const bool last = state_.substep + 1 == world_.substeps();
     joints_.storeImpulses(bodies_, rows_);
     contactModel_.store(contacts_.list(), rows_, last, tasks_);
     if (!algorithms_.style.ownsCorrection) {
         // Slower than this a contact is as good as resting, and its overlap is corrected.
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
-        StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), moved, separating,
-                                   state_.positions);
+        StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, state_.positions);
         algorithms_.correction->correct(positions, def_.positionIterations, def_.slop);
     }
     motion_.finish(bodies_, h, tasks_);
@@ -303,7 +323,7 @@ void Step<S>::advanceContacts() {
     if (corrected)
         contactModel_.advance(contacts_.list(), state_.positions.motion, Real(1), tasks_);
     else
-        contactModel_.advance(contacts_.list(), motion_.used(), motion_.moveTime(state_.substepSize), tasks_);
+        contactModel_.advance(contacts_.list(), motion_.used(), state_.substepSize, tasks_);
 }
 
 #define RIGOR_INSTANTIATE(S)                 \
@@ -317,6 +337,7 @@ void Step<S>::advanceContacts() {
     template void Step<S>::relax();          \
     template void Step<S>::solvePositions(); \
     template void Step<S>::correct();        \
+    template void Step<S>::toEnd();          \
     template SleepStep<S> Step<S>::sleepStep();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

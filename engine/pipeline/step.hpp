@@ -27,6 +27,8 @@ struct StepState {
     std::size_t jointRows = 0;  ///< number of joint rows; they come first in `rows`
     std::vector<Real> warmStart;
     PositionScratch<S> positions;
+    ConstraintRows<S> noContacts;         ///< always empty
+    std::vector<Velocity<S>> still, way;  ///< zero; velocities of each body in the last sub-step
     // --- what the result refers to
     std::vector<Real> residuals;
     std::vector<ImpactEvent<S>> impacts;
@@ -67,7 +69,6 @@ class Step {
     void injectFault(Phase phase);
 
     // --- stages
-    void drift();
     void findPairs();
     void findManifolds();
     void makeRows();
@@ -80,6 +81,9 @@ class Step {
     void correct();
 
     // --- data shared by them
+    void toMidpoint();
+    void toEnd();
+    void putJointsRight();
     ContactStep<S> contactStep() const;
     BiasRule<Real> biasRule() const;
     void solveVelocities(int iterations, bool warmStarted);

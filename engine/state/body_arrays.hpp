@@ -65,6 +65,15 @@ struct BodyConstants {
     typename S::Real angularVelocityKept = 1;        ///< fraction kept per second for the angular velocity
 };
 
+/// Where bodies come to be half a (sub-)step after the end of the last step: state of integrators that step from
+/// midpoint to midpoint. Arrays by dense index; empty with other integrators.
+template <class S>
+struct Midpoints {
+    std::vector<Pose<S>> pose;
+    std::vector<Velocity<S>> velocity;  ///< the angular velocity is that of the orientation there
+    std::vector<std::uint8_t> valid;    ///< 0: to be found anew from the body's pose and velocity
+};
+
 template <class S>
 struct BodyArrays {
     // --- state (state_fields.def)
@@ -73,6 +82,7 @@ struct BodyArrays {
     std::vector<Wrench<S>> wrench;            ///< acts during the next step, then cleared
     std::vector<std::uint8_t> asleep;         ///< 1: left out of the step (sleep.hpp)
     std::vector<typename S::Real> stillTime;  ///< time at rest, if bodies may sleep [s]
+    Midpoints<S> midpoints;
     // --- constant
     std::vector<BodyConstants<S>> constants;
     std::vector<typename S::Real> invMass;             ///< [1/kg]; 0 unless dynamic and awake
@@ -82,6 +92,10 @@ struct BodyArrays {
     std::vector<typename S::Inertia> invInertia;  ///< world axes, at the start-of-step pose
 
     std::size_t size() const { return pose.size(); }
+    /// Called when the velocity of body i has been changed from outside a step.
+    void leaveMidpoint(std::size_t i) {
+        if (i < midpoints.valid.size()) midpoints.valid[i] = 0;
+    }
 };
 
 }  // namespace rigor::engine
