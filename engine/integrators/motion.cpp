@@ -16,13 +16,6 @@ void Motion<S>::setInertia(BodyArrays<S>& bodies, const Tasks& tasks) {
     });
 }
 
-/// Angular velocity after a free rotation from q0, where it is w, to q1 with the mean velocity `mean`.
-template <class S>
-typename S::Ang Motion<S>::velocityAfter(const BodyConstants<S>& body, const typename S::Rot& q0,
-                                         const typename S::Rot& q1, const Ang& w, const Ang& mean) const {
-    return rotation_.finish ? rotation_.finish(body, q0, q1, w, mean, mean) : mean;
-}
-
 template <class S>
 bool Motion<S>::toMidpoint(BodyArrays<S>& bodies, Real half, bool same, const Tasks& tasks) {
     const std::size_t n = bodies.size();
@@ -43,10 +36,10 @@ bool Motion<S>::toMidpoint(BodyArrays<S>& bodies, Real half, bool same, const Ta
         found = true;
         const typename S::Rot q0 = X.q;
         const bool dynamic = bodies.invMass[i] > 0;
-        const Ang mean = dynamic ? rotation_.predict(bodies.constants[i], q0, velocity.w, half) : velocity.w;
+        const Ang mean = dynamic ? freeRotation(bodies.constants[i], q0, velocity.w, half) : velocity.w;
         X.p += half * velocity.v;
         X.q = turn_(q0, Ang(half * mean));
-        if (dynamic) velocity.w = velocityAfter(bodies.constants[i], q0, X.q, velocity.w, mean);
+        if (dynamic) velocity.w = rotatedVelocity(bodies.constants[i], q0, X.q, velocity.w, mean);
     });
     return found;
 }
@@ -66,7 +59,8 @@ void Motion<S>::toEnd(BodyArrays<S>& bodies, std::span<const Velocity<S>> way, R
         X.p -= half * way[i].v;
         X.q = turn_(X.q, Ang(-half * way[i].w));
         if (bodies.invMass[i] > 0)
-            velocity.w = velocityAfter(bodies.constants[i], midpoints.pose[i].q, X.q, velocity.w, velocity.w);
+            velocity.w =
+                rotatedVelocity(bodies.constants[i], midpoints.pose[i].q, X.q, velocity.w, velocity.w);
     });
 }
 

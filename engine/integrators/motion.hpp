@@ -37,6 +37,16 @@ class Motion {
     /// to the end of the step. `way` are their velocities since the midpoint before.
     void toEnd(BodyArrays<S>& bodies, std::span<const Velocity<S>> way, Real half,
                const Tasks& tasks = Tasks::one());
+    // --- free rotation of one body over h [s] from the orientation q and the angular velocity w there
+    /// Mean angular velocity.
+    Ang freeRotation(const BodyConstants<S>& body, const typename S::Rot& q, const Ang& w, Real h) const {
+        return rotation_.predict(body, q, w, h);
+    }
+    /// Angular velocity in the orientation q1 that the mean velocity leads to.
+    Ang rotatedVelocity(const BodyConstants<S>& body, const typename S::Rot& q, const typename S::Rot& q1,
+                        const Ang& w, const Ang& mean) const {
+        return rotation_.finish ? rotation_.finish(body, q, q1, w, mean, mean) : mean;
+    }
     /// Constraints of a step already act on the motion of that step.
     bool movesWithSolvedVelocity() const { return integrator_.movesWithSolvedVelocity; }
 
@@ -81,8 +91,6 @@ class Motion {
     }
     void kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks);
     void evaluateForces(const BodyArrays<S>& bodies, const Load<S>& load, Real h);
-    Ang velocityAfter(const BodyConstants<S>& body, const typename S::Rot& q0, const typename S::Rot& q1,
-                      const Ang& w, const Ang& mean) const;
     void moveAlongFlow(BodyArrays<S>& bodies, Real h, const Tasks& tasks);
 
     Integrator<S> integrator_{};

@@ -71,10 +71,35 @@ constexpr double kMostWork = 0.01;
 
 }  // namespace
 
+template <class S>
+void Step<S>::beginFlights() {
+    std::vector<std::uint8_t>& bound = state_.bound;
+    bound.assign(bodies_.size(), 0);
+    for (const auto& record : joints_.records()) bound[record.joint.a] = bound[record.joint.b] = 1;
+    for (const auto& record : world_.forces.records()) bound[record.place.a] = bound[record.place.b] = 1;
+    state_.flights.begin(bodies_, bound);
+}
+
+/// Bodies that have collided in flight go to where that takes them.
+template <class S>
+void Step<S>::endFlights() {
+    const MovedWorld<S> world{bodies_,
+                              contacts_,
+                              motion_,
+                              *algorithms_.narrowPhase,
+                              algorithms_.friction,
+                              def_.restitutionThreshold,
+                              state_.size,
+                              Real(0)};
+    result_.unlocatedImpacts =
+        state_.flights.resolve(world, algorithms_.restitution->bounces(), state_.impacts);
+}
+
 /// Integrators that step from midpoint to midpoint begin there.
 template <class S>
 void Step<S>::toMidpoint() {
     const Real h = state_.substepSize;
+    if (algorithms_.locatesImpacts) beginFlights();
     contacts_.beginWays(bodies_, tasks_);
     if (!motion_.toMidpoint(bodies_, Real(0.5) * h, world_.clock.lastSubstepSize == h, tasks_)) return;
     contacts_.keepSides(bodies_, tasks_);
@@ -96,6 +121,7 @@ void Step<S>::toEnd() {
     }
     motion_.toEnd(bodies_, way, Real(0.5) * h, tasks_);
     putJointsRight();
+    if (algorithms_.locatesImpacts) endFlights();
 }
 
 /// Position correction of joints alone, where the bodies are.
@@ -206,8 +232,10 @@ template <class S>
 void Step<S>::kick() {
     const double now = world_.clock.time + state_.substep * static_cast<double>(state_.substepSize);
     algorithms_.ccd->remember(bodies_);
+    if (algorithms_.locatesImpacts) state_.flights.beforeKick(bodies_);
     motion_.kick(bodies_, {def_.gravity, &world_.forces, now}, state_.substepSize, tasks_);
     algorithms_.ccd->rememberKick(bodies_);
+    if (algorithms_.locatesImpacts) state_.flights.afterKick(bodies_);
 }
 
 template <class S>

@@ -68,6 +68,9 @@ StepAlgorithms<S>::StepAlgorithms(const WorldDef<S>& def) {
     narrowPhase = def.customNarrowPhase ? def.customNarrowPhase : makeNarrowPhase<S>(def.narrowPhase);
     makeManifold = findAlgorithm(manifoldTable<S>(), "manifold", def.manifold).make;
     checkChoices<S>(def, *this);
+    // Its impacts obey Newton's law, and not twice what continuous collision resolves.
+    locatesImpacts = motion.isAtMidpoint() && !continuousCollisionTraits(def.continuousCollision).acts &&
+                     !restitution->solvesImpacts() && fault == nullptr;
     if (movesInBlocks<S>(def)) motion.moveInBlocks(rotation.gyroscopic);
 }
 

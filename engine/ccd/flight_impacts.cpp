@@ -1,0 +1,489 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/ccd/flight_impacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/state/sleep.hpp"
+
+namespace rigor::engine {
+namespace {
+
+/// Smaller positive s with  d = u s + a s^2 / 2;  none: a negative number.
+template <class R>
+R timeToClose(R d, R u, R a) {
+    const R root = u * u + R(2) * a * d;
+    if (!(root >= 0)) return R(-1);
+    const R sum = u + std::sqrt(root);
+    return sum > 0 ? R(2) * d / sum : R(-1);
+}
+
+/// Distance that counts as touching: rounding of the coordinates, and what the closest points of curved shapes
+/// are exact to.
+template <class S>
+typename S::Real touching(const Pose<S>& A, const Pose<S>& B, const ClosestPoints<S>& closest) {
+    using Real = typename S::Real;
+    const Real scale =
+        std::max({closest.pointA.cwiseAbs().maxCoeff(), closest.pointB.cwiseAbs().maxCoeff(),
+                  (closest.pointA - A.p).norm() < Real(1e6) ? A.p.cwiseAbs().maxCoeff() : Real(0),
+                  (closest.pointB - B.p).norm() < Real(1e6) ? B.p.cwiseAbs().maxCoeff() : Real(0)});
+    return std::max(Real(1e-10), Real(64) * std::numeric_limits<Real>::epsilon()) *
+           std::max(scale, Real(1e-3));
+}
+
+}  // namespace
+
+template <class S>
+void FlightImpacts<S>::begin(const BodyArrays<S>& bodies, std::span<const std::uint8_t> bound) {
+    const std::size_t n = bodies.size();
+    startPose_.assign(bodies.pose.begin(), bodies.pose.end());
+    startVelocity_.assign(bodies.velocity.begin(), bodies.velocity.end());
+    bound_.assign(bound.begin(), bound.end());
+    gained_.assign(n, Vec::Zero());
+    for (std::size_t i = 0; i < n; ++i) {
+        const Ang& torque = bodies.wrench[i].torque;
+        if (bodies.asleep[i] || bodies.constants[i].angularVelocityKept != Real(1) ||
+            dotAng(torque, torque) > Real(0))
+            bound_[i] = 1;
+    }
+}
+
+template <class S>
+void FlightImpacts<S>::beforeKick(const BodyArrays<S>& bodies) {
+    beforeKick_.resize(bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) beforeKick_[i] = bodies.velocity[i].v;
+}
+
+template <class S>
+void FlightImpacts<S>::afterKick(const BodyArrays<S>& bodies) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) gained_[i] += bodies.velocity[i].v - beforeKick_[i];
+}
+
+template <class S>
+int FlightImpacts<S>::resolve(const MovedWorld<S>& world, bool bounces, std::vector<ImpactEvent<S>>& events) {
+    bounces_ = bounces;
+    findFlying(world);
+    if (std::find(flying_.begin(), flying_.end(), 1) == flying_.end()) return 0;
+    makeWays(world);
+    findPairs(world);
+    hitClusters_.clear();
+    for (Pair& pair : pairs_) {
+        const bool fliesA = flying_[world.contacts.shapes()[pair.a].body] != 0;
+        pair.cluster = rootOf(world.contacts.shapes()[fliesA ? pair.a : pair.b].body);
+        pair.touch = firstTouch(world, pair, 0);
+        if (pair.touch.overlapped)
+            blocked_[pair.cluster] = 1;
+        else if (pair.touch.hit)
+            hitClusters_.push_back(pair.cluster);
+    }
+    std::sort(hitClusters_.begin(), hitClusters_.end());
+    hitClusters_.erase(std::unique(hitClusters_.begin(), hitClusters_.end()), hitClusters_.end());
+    const std::size_t before = events.size();
+    int left = 0;
+    for (const std::uint32_t cluster : hitClusters_)
+        left += blocked_[cluster] || !runCluster(world, cluster, events);
+    std::stable_sort(events.begin() + static_cast<std::ptrdiff_t>(before), events.end(),
+                     [](const ImpactEvent<S>& e, const ImpactEvent<S>& f) { return e.time < f.time; });
+    return left;
+}
+
+/// Marks the bodies in flight.
+template <class S>
+void FlightImpacts<S>::findFlying(const MovedWorld<S>& world) {
+    const BodyArrays<S>& bodies = world.bodies;
+    const std::size_t n = bodies.size();
+    flying_.resize(n);
+    for (std::size_t i = 0; i < n; ++i)
+        flying_[i] = bodies.constants[i].type == BodyType::Dynamic && bodies.invMass[i] > 0 && !bound_[i];
+    for (const Contact<S>& contact : world.contacts.list()) {
+        const std::uint32_t a = contact.bodyA, b = contact.bodyB;
+        if (!flying_[a] && !flying_[b]) continue;
+        for (int i = 0; i < contact.manifold.count; ++i) {
+            const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
+            const Vec rA = where.pointA - startPose_[a].p, rB = where.pointB - startPose_[b].p;
+            const Velocity<S>&A = startVelocity_[a], &B = startVelocity_[b];
+            const Real u = contact.manifold.normal.dot(B.v + cross(B.w, rB) - A.v - cross(A.w, rA));
+            if (std::abs(u) > world.restitutionThreshold) continue;
+            flying_[a] = flying_[b] = 0;
+            break;
+        }
+    }
+}
+
+template <class S>
+void FlightImpacts<S>::makeWays(const MovedWorld<S>& world) {
+    const BodyArrays<S>& bodies = world.bodies;
+    ways_.resize(bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        Way& way = ways_[i];
+        way = {startPose_[i], startVelocity_[i], Vec::Zero(), startVelocity_[i].w, 0, false, {}};
+        if (flying_[i]) {
+            way.acceleration = gained_[i] / world.h;
+            way.turning =
+                world.motion.freeRotation(bodies.constants[i], way.start.q, way.velocity.w, world.h);
+        } else if (bodies.constants[i].type == BodyType::Dynamic) {
+            way.velocity = {Vec((bodies.pose[i].p - way.start.p) / world.h), startVelocity_[i].w};
+        } else if (bodies.constants[i].type == BodyType::Static) {
+            way.velocity = {};
+            way.turning = zeroAng<S>();
+        }
+    }
+}
+
+/// Contains the shape from the time that its body's way begins to h.
+template <class S>
+Aabb<S> FlightImpacts<S>::boxOf(const MovedWorld<S>& world, std::uint32_t shape, Real h) const {
+    const ShapeRecord<S>& record = world.contacts.shapes()[shape];
+    const Way& way = ways_[record.body];
+    const Real rest = h - way.begin;
+    const Vec mean = way.velocity.v + (Real(0.5) * rest) * way.acceleration;
+    Aabb<S> box = sweptBox<S>({&record.shape,
+                               record.local,
+                               way.start,
+                               {mean, way.turning},
+                               record.boundingRadius,
+                               record.inscribedRadius},
+                              rest);
+    // The parabola is this far from its chord.
+    const Vec bulge = (Real(0.125) * rest * rest) * way.acceleration.cwiseAbs();
+    box.min -= bulge;
+    box.max += bulge;
+    return box;
+}
+
+/// Pairs of shapes whose boxes overlap, at least one of a body in flight, by a sweep along x [Baraff1992].
+template <class S>
+void FlightImpacts<S>::findPairs(const MovedWorld<S>& world) {
+    const ShapeSet<S>& shapes = world.contacts.shapes();
+    const auto count = static_cast<std::uint32_t>(shapes.size());
+    boxes_.resize(count);
+    order_.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        boxes_[i] = boxOf(world, i, world.h);
+        order_[i] = i;
+    }
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
+        const Real x = boxes_[i].min[0], y = boxes_[j].min[0];
+        return x != y ? x < y : i < j;
+    });
+    parent_.resize(world.bodies.size());
+    for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = i;
+    blocked_.assign(world.bodies.size(), 0);
+    pairs_.clear();
+    blockers_.clear();
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t i = order_[k];
+        for (std::size_t l = k + 1; l < count && boxes_[order_[l]].min[0] <= boxes_[i].max[0]; ++l)
+            if (boxes_[i].overlaps(boxes_[order_[l]])) addPair(world, i, order_[l]);
+    }
+    for (const std::uint32_t body : blockers_) blocked_[rootOf(body)] = 1;
+    std::sort(pairs_.begin(), pairs_.end(),
+              [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+}
+
+template <class S>
+void FlightImpacts<S>::addPair(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j) {
+    const ShapeSet<S>& shapes = world.contacts.shapes();
+    const std::uint32_t bi = shapes[i].body, bj = shapes[j].body;
+    if (bi == bj || !(flying_[bi] || flying_[bj])) return;
+    if (!world.contacts.filter().mayCollide(world.bodies, bi, bj)) return;
+    const bool meets = (flying_[bi] || world.bodies.constants[bi].type != BodyType::Dynamic) &&
+                       (flying_[bj] || world.bodies.constants[bj].type != BodyType::Dynamic) &&
+                       !isComposite<S>(shapes[i].shape) && !isComposite<S>(shapes[j].shape);
+    if (flying_[bi] && flying_[bj]) {
+        const std::uint32_t a = rootOf(bi), b = rootOf(bj);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+    if (!meets) {
+        blockers_.push_back(flying_[bi] ? bi : bj);
+        return;
+    }
+    Pair pair;
+    pair.a = bi < bj ? i : j;
+    pair.b = bi < bj ? j : i;
+    pairs_.push_back(pair);
+}
+
+template <class S>
+std::uint32_t FlightImpacts<S>::rootOf(std::uint32_t body) {
+    while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
+    return body;
+}
+
+template <class S>
+ClosestPoints<S> FlightImpacts<S>::look(const MovedWorld<S>& world, const Pair& pair, Real t) const {
+    const ShapeRecord<S>&a = world.contacts.shapes()[pair.a], &b = world.contacts.shapes()[pair.b];
+    return closestPoints<S>(a.shape, compose<S>(ways_[a.body].at(t), a.local), b.shape,
+                            compose<S>(ways_[b.body].at(t), b.local));
+}
+
+/// Closing speed of the closest points.
+template <class S>
+typename S::Real FlightImpacts<S>::closingSpeed(const Pair& pair, const MovedWorld<S>& world,
+                                                const ClosestPoints<S>& closest, Real t) const {
+    const Way &A = ways_[world.contacts.shapes()[pair.a].body],
+              &B = ways_[world.contacts.shapes()[pair.b].body];
+    const Vec uA = A.linearAt(t) + cross(A.turning, Vec(closest.pointA - A.at(t).p));
+    const Vec uB = B.linearAt(t) + cross(B.turning, Vec(closest.pointB - B.at(t).p));
+    return closest.normal.dot(uA - uB);
+}
+
+/// The first time in [from, h] at which the shapes touch and approach each other: Newton's iteration on the
+/// distance, which for spheres and planes is exact at once, as long as it does not lead into an overlap, then
+/// bisection; where it does not come nearer, conservative advancement (time_of_impact.cpp).
+template <class S>
+typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S>& world, const Pair& pair,
+                                                              Real from) const {
+    const ShapeRecord<S>&sa = world.contacts.shapes()[pair.a], &sb = world.contacts.shapes()[pair.b];
+    const Way &A = ways_[sa.body], &B = ways_[sb.body];
+    constexpr int kMaxLooks = 100;
+    Touch touch;
+    Real t = from;
+    ClosestPoints<S> closest = look(world, pair, t);
+    for (int i = 0; i < kMaxLooks; ++i) {
+        const Vec& n = closest.normal;
+        const Real d = closest.distance, rest = world.h - t;
+        const Real near = touching<S>(A.start, B.start, closest);
+        const Real u = closingSpeed(pair, world, closest, t), a = n.dot(A.acceleration - B.acceleration);
+        if (d < -near && i == 0) {
+            touch.overlapped = true;
+            return touch;
+        }
+        const Real turning =
+            turningAcross(n, A.turning) * sa.boundingRadius + turningAcross(n, B.turning) * sb.boundingRadius;
+        const Real fastest = n.dot(A.linearAt(t) - B.linearAt(t)) + std::max(a, Real(0)) * rest + turning;
+        if (!(fastest > 0)) return touch;
+        Real step;
+        if (d <= near) {
+            if (u > 0) {
+                touch = {true, false, t, closest};
+                return touch;
+            }
+            // They part. They meet again after twice the time to where they are furthest apart.
+            step = a > 0 ? -u / a : rest;
+            if (turning > 0) step = std::min(step, Real(0.125) * rest);
+            step = std::max(step, Real(1e-6) * world.h);
+        } else {
+            const Real safe = d / fastest;
+            if (safe > rest) return touch;
+            step = safe;
+            const Real newton = timeToClose(d, u, a);
+            if (newton > 0 && newton <= rest) {
+                const ClosestPoints<S> then = look(world, pair, t + newton);
+                if (then.distance < d && then.distance >= -near) {
+                    t += newton;
+                    closest = then;
+                    continue;
+                }
+                if (then.distance < -near) {
+                    Real lo = t, hi = t + newton;
+                    for (int k = 0; k < 60 && hi - lo > Real(1e-15) * world.h; ++k) {
+                        const Real mid = Real(0.5) * (lo + hi);
+                        closest = look(world, pair, mid);
+                        (closest.distance > 0 ? lo : hi) = mid;
+                        if (std::abs(closest.distance) <= near) {
+                            lo = mid;
+                            break;
+                        }
+                    }
+                    t = lo;
+                    closest = look(world, pair, t);
+                    if (closest.distance <= near && closingSpeed(pair, world, closest, t) > 0) {
+                        touch = {true, false, t, closest};
+                        return touch;
+                    }
+                    continue;
+                }
+            }
+        }
+        t += step;
+        if (!(t < world.h)) return touch;
+        closest = look(world, pair, t);
+    }
+    return touch;
+}
+
+/// False: the cluster is left to the step.
+template <class S>
+bool FlightImpacts<S>::runCluster(const MovedWorld<S>& world, std::uint32_t cluster,
+                                  std::vector<ImpactEvent<S>>& events) {
+    BodyArrays<S>& bodies = world.bodies;
+    const std::size_t eventsBefore = events.size();
+    members_.clear();
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+        if (flying_[i] && rootOf(i) == cluster) members_.push_back(i);
+    saved_.clear();
+    for (const std::uint32_t i : members_) saved_.emplace_back(bodies.pose[i], bodies.velocity[i]);
+    clusterPairs_.clear();
+    for (const Pair& pair : pairs_)
+        if (pair.cluster == cluster) clusterPairs_.push_back(pair);
+    bool ok = true;
+    for (int impacts = 0; ok; ++impacts) {
+        const Pair* first = nullptr;
+        for (const Pair& pair : clusterPairs_)
+            if (pair.touch.hit && (first == nullptr || pair.touch.time < first->touch.time)) first = &pair;
+        if (first == nullptr) break;
+        const Pair hit = *first;
+        const std::uint32_t a = world.contacts.shapes()[hit.a].body, b = world.contacts.shapes()[hit.b].body;
+        ok = impacts < kMaxImpacts && !ways_[a].held && !ways_[b].held && collide(world, hit, events) &&
+             searchAgain(world, hit, cluster);
+    }
+    if (!ok) {
+        for (std::size_t k = 0; k < members_.size(); ++k) {
+            bodies.pose[members_[k]] = saved_[k].first;
+            bodies.velocity[members_[k]] = saved_[k].second;
+        }
+        events.resize(eventsBefore);
+        return false;
+    }
+    for (const std::uint32_t i : members_) {
+        goTo(world, i, world.h);
+        if (ways_[i].held) bodies.velocity[i] = ways_[i].end;
+        bodies.leaveMidpoint(i);
+    }
+    return true;
+}
+
+/// The touches to come after a hit. False: the cluster is left to the step.
+template <class S>
+bool FlightImpacts<S>::searchAgain(const MovedWorld<S>& world, const Pair& hit, std::uint32_t cluster) {
+    const ShapeSet<S>& shapes = world.contacts.shapes();
+    const std::uint32_t a = shapes[hit.a].body, b = shapes[hit.b].body;
+    const auto isNew = [&](std::uint32_t body) { return flying_[body] && (body == a || body == b); };
+    for (const std::uint32_t body : {a, b})
+        if (flying_[body] && !searchFrom(world, body, cluster)) return false;
+    for (Pair& pair : clusterPairs_) {
+        if (!isNew(shapes[pair.a].body) && !isNew(shapes[pair.b].body)) continue;
+        pair.touch = {};
+        if (pair.a == hit.a && pair.b == hit.b && (ways_[a].held || ways_[b].held)) continue;
+        pair.touch = firstTouch(world, pair, hit.touch.time);
+        if (pair.touch.overlapped) return false;
+    }
+    return true;
+}
+
+/// The body at time t of its way, with the velocity that it has then.
+template <class S>
+void FlightImpacts<S>::goTo(const MovedWorld<S>& world, std::uint32_t i, Real t) {
+    BodyArrays<S>& bodies = world.bodies;
+    const Way& way = ways_[i];
+    bodies.pose[i] = way.at(t);
+    bodies.velocity[i] = {way.linearAt(t),
+                          world.motion.rotatedVelocity(bodies.constants[i], way.start.q, bodies.pose[i].q,
+                                                       way.velocity.w, way.turning)};
+    bodies.invInertia[i] = worldInertia<S>(bodies.pose[i].q, bodies.invInertiaLocal[i]);
+}
+
+/// False: the cluster is to be left to the step.
+template <class S>
+bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
+                               std::vector<ImpactEvent<S>>& events) {
+    BodyArrays<S>& bodies = world.bodies;
+    const ShapeRecord<S>&sa = world.contacts.shapes()[pair.a], &sb = world.contacts.shapes()[pair.b];
+    const std::uint32_t a = sa.body, b = sb.body;
+    const Real t = pair.touch.time;
+    const Pose<S> A = ways_[a].at(t), B = ways_[b].at(t);
+    const Real thin = std::min({sa.inscribedRadius, sb.inscribedRadius, Real(1)});
+    const Real near = std::max(Real(1e-6) * thin, Real(4) * touching<S>(A, B, pair.touch.closest));
+    manifold_ = {};
+    world.narrowPhase.collide(sa.shape, compose<S>(A, sa.local), sb.shape, compose<S>(B, sb.local), near,
+                              manifold_);
+    if (manifold_.count == 0) {
+        manifold_.count = 1;
+        manifold_.normal = pair.touch.closest.normal;
+        manifold_.points[0] = {pair.touch.closest.pointA, pair.touch.closest.pointB,
+                               pair.touch.closest.distance, 0};
+    }
+    const Pose<S> endA = bodies.pose[a], endB = bodies.pose[b];
+    bodies.pose[a] = A;
+    bodies.pose[b] = B;
+    for (const std::uint32_t i : {a, b})
+        if (flying_[i]) goTo(world, i, t);
+    const PairCoefficients<S> coefficients = world.contacts.materials().pair(sa.material, sb.material);
+    impactSolver_.begin(bodies, a, b, manifold_, coefficients);
+    const Real impulse = impactSolver_.solve(bodies, world.friction, world.restitutionThreshold, bounces_);
+    for (const std::uint32_t i : {a, b}) {
+        if (!flying_[i]) continue;
+        Way& way = ways_[i];
+        way.start = bodies.pose[i];
+        way.velocity = bodies.velocity[i];
+        way.begin = t;
+        way.turning =
+            world.motion.freeRotation(bodies.constants[i], way.start.q, way.velocity.w, world.h - t);
+    }
+    // Contact goes on where no point parts and forces press.
+    const Vec& n = manifold_.normal;
+    Real fastest = 0;
+    for (int i = 0; i < manifold_.count; ++i) {
+        const ManifoldPoint<S>& where = manifold_.points[static_cast<std::size_t>(i)];
+        const Velocity<S>&vA = bodies.velocity[a], &vB = bodies.velocity[b];
+        fastest = std::max(fastest, n.dot(vB.v + cross(vB.w, Vec(where.pointB - B.p)) - vA.v -
+                                          cross(vA.w, Vec(where.pointA - A.p))));
+    }
+    const bool presses = n.dot(ways_[a].acceleration - ways_[b].acceleration) > 0;
+    Real held = 0;
+    if (fastest <= world.restitutionThreshold && presses) held = hold(world, a, b, t);
+    if (!flying_[a]) bodies.pose[a] = endA;
+    if (!flying_[b]) bodies.pose[b] = endB;
+    if (impulse + held > 0)
+        events.push_back({bodies.id[a], bodies.id[b], world.begin + t,
+                          Vec(Real(0.5) * (pair.touch.closest.pointA + pair.touch.closest.pointB)), n,
+                          impulse + held});
+    return true;
+}
+
+/// Contact from t to the end of the step, by the impulses that hold it at the end. Returns the normal one.
+template <class S>
+typename S::Real FlightImpacts<S>::hold(const MovedWorld<S>& world, std::uint32_t a, std::uint32_t b,
+                                        Real t) {
+    BodyArrays<S>& bodies = world.bodies;
+    const Real rest = world.h - t;
+    for (const std::uint32_t i : {a, b})
+        if (flying_[i]) bodies.velocity[i].v += rest * ways_[i].acceleration;
+    const Real impulse = impactSolver_.solve(bodies, world.friction, Real(0), false);
+    for (const std::uint32_t i : {a, b}) {
+        if (!flying_[i]) continue;
+        Way& way = ways_[i];
+        way.held = true;
+        way.end = bodies.velocity[i];
+        way.velocity = {Vec(Real(0.5) * (way.velocity.v + way.end.v)), way.velocity.w};
+        way.turning = Real(0.5) * (way.velocity.w + way.end.w);
+        way.acceleration.setZero();
+    }
+    return impulse;
+}
+
+/// Pairs of a body that has a new way. False: it comes near a body that is not of the cluster.
+template <class S>
+bool FlightImpacts<S>::searchFrom(const MovedWorld<S>& world, std::uint32_t body, std::uint32_t cluster) {
+    const ShapeSet<S>& shapes = world.contacts.shapes();
+    const auto count = static_cast<std::uint32_t>(shapes.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (shapes[i].body != body) continue;
+        boxes_[i] = boxOf(world, i, world.h);
+        for (std::uint32_t j = 0; j < count; ++j) {
+            const std::uint32_t other = shapes[j].body;
+            if (other == body || !boxes_[i].overlaps(boxes_[j])) continue;
+            if (!world.contacts.filter().mayCollide(world.bodies, body, other)) continue;
+            Pair pair;
+            pair.a = body < other ? i : j;
+            pair.b = body < other ? j : i;
+            pair.cluster = cluster;
+            const bool known = std::any_of(clusterPairs_.begin(), clusterPairs_.end(),
+                                           [&](const Pair& p) { return p.a == pair.a && p.b == pair.b; });
+            if (known) continue;
+            const bool fixed = world.bodies.constants[other].type != BodyType::Dynamic;
+            const bool member = flying_[other] && rootOf(other) == cluster;
+            if ((!fixed && !member) || isComposite<S>(shapes[j].shape) || isComposite<S>(shapes[i].shape))
+                return false;
+            clusterPairs_.push_back(pair);
+        }
+    }
+    return true;
+}
+
+RIGOR_INSTANTIATE_CLASS(FlightImpacts)
+
+}  // namespace rigor::engine
