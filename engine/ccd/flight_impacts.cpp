@@ -153,14 +153,37 @@ Aabb<S> FlightImpacts<S>::boxOf(const MovedWorld<S>& world, std::uint32_t shape,
     return box;
 }
 
+/// False where the boxes of the starts are further apart than the shapes move relative to each other: neighbours
+/// that fall side by side.
+template <class S>
+bool FlightImpacts<S>::mayTouch(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j) const {
+    const ShapeRecord<S>&a = world.contacts.shapes()[i], &b = world.contacts.shapes()[j];
+    const Way &A = ways_[a.body], &B = ways_[b.body];
+    const Real h = world.h;
+    const Real turning = std::sqrt(dotAng(A.turning, A.turning)) * a.boundingRadius +
+                         std::sqrt(dotAng(B.turning, B.turning)) * b.boundingRadius;
+    const Vec motion = (h * (A.velocity.v - B.velocity.v)).cwiseAbs() +
+                       (Real(0.5) * h * h * (A.acceleration - B.acceleration)).cwiseAbs() +
+                       Vec::Constant(h * turning);
+    for (int k = 0; k < S::dim; ++k) {
+        const Real gap = std::max(startBoxes_[i].min[k] - startBoxes_[j].max[k],
+                                  startBoxes_[j].min[k] - startBoxes_[i].max[k]);
+        if (gap > motion[k]) return false;
+    }
+    return true;
+}
+
 /// Pairs of shapes whose boxes overlap, at least one of a body in flight, by a sweep along x [Baraff1992].
 template <class S>
 void FlightImpacts<S>::findPairs(const MovedWorld<S>& world) {
     const ShapeSet<S>& shapes = world.contacts.shapes();
     const auto count = static_cast<std::uint32_t>(shapes.size());
     boxes_.resize(count);
+    startBoxes_.resize(count);
     order_.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
+        const ShapeRecord<S>& shape = shapes[i];
+        startBoxes_[i] = boundingBox<S>(shape.shape, compose<S>(startPose_[shape.body], shape.local));
         boxes_[i] = boxOf(world, i, world.h);
         order_[i] = i;
     }
@@ -188,7 +211,7 @@ void FlightImpacts<S>::addPair(const MovedWorld<S>& world, std::uint32_t i, std:
     const ShapeSet<S>& shapes = world.contacts.shapes();
     const std::uint32_t bi = shapes[i].body, bj = shapes[j].body;
     if (bi == bj || !(flying_[bi] || flying_[bj])) return;
-    if (!world.contacts.filter().mayCollide(world.bodies, bi, bj)) return;
+    if (!mayTouch(world, i, j) || !world.contacts.filter().mayCollide(world.bodies, bi, bj)) return;
     const bool meets = (flying_[bi] || world.bodies.constants[bi].type != BodyType::Dynamic) &&
                        (flying_[bj] || world.bodies.constants[bj].type != BodyType::Dynamic) &&
                        !isComposite<S>(shapes[i].shape) && !isComposite<S>(shapes[j].shape);

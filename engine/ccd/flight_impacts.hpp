@@ -82,6 +82,7 @@ class FlightImpacts {
     void makeWays(const MovedWorld<S>& world);
     Aabb<S> boxOf(const MovedWorld<S>& world, std::uint32_t shape, Real h) const;
     void findPairs(const MovedWorld<S>& world);
+    bool mayTouch(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j) const;
     void addPair(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j);
     std::uint32_t rootOf(std::uint32_t body);
     Touch firstTouch(const MovedWorld<S>& world, const Pair& pair, Real from) const;
@@ -106,8 +107,8 @@ class FlightImpacts {
     std::vector<std::uint32_t> parent_;  ///< union-find of bodies in flight
     std::vector<std::uint8_t> blocked_;  ///< of a root: the cluster is left to the step
     // --- by dense shape index
-    std::vector<Aabb<S>> boxes_;
-    std::vector<std::uint32_t> order_;  ///< shapes by the lower ends of their boxes
+    std::vector<Aabb<S>> boxes_, startBoxes_;  ///< of the ways; of the starts
+    std::vector<std::uint32_t> order_;         ///< shapes by the lower ends of their boxes
     std::vector<Pair> pairs_, clusterPairs_;
     std::vector<std::uint32_t>
         blockers_;  ///< bodies in flight that come near what they cannot meet in flight

@@ -30,44 +30,41 @@ double fittedOrder(const std::vector<double>& h, const std::vector<double>& erro
 }
 
 /// State of a scene at `time` after `steps` equal steps.
-using Run = std::function<Eigen::VectorXd(const std::string& integrator, int steps)>;
+using RunOf = std::function<Eigen::VectorXd(const std::string& integrator, int steps)>;
 
-double orderAgainst(const Run& run, const char* integrator, double time, const Eigen::VectorXd& exact,
+double orderAgainst(const RunOf& stateOf, const char* integrator, double time, const Eigen::VectorXd& exact,
                     const std::vector<int>& steps) {
     std::vector<double> h, error;
     for (const int n : steps) {
         h.push_back(time / n);
-        error.push_back((run(integrator, n) - exact).norm());
-        if (std::getenv("RIGOR_SHOW_ERRORS"))
-            std::printf("  %-18s h %.6f error %.3e\n", integrator, h.back(), error.back());
+        error.push_back((stateOf(integrator, n) - exact).norm());
     }
     return fittedOrder(h, error);
 }
 /// From the differences of runs with n and 2 n steps.
-double orderBetweenRuns(const Run& run, const char* integrator, double time, const std::vector<int>& steps) {
+double orderBetweenRuns(const RunOf& stateOf, const char* integrator, double time,
+                        const std::vector<int>& steps) {
     std::vector<double> h, error;
     for (const int n : steps) {
         h.push_back(time / n);
-        error.push_back((run(integrator, n) - run(integrator, 2 * n)).norm());
-        if (std::getenv("RIGOR_SHOW_ERRORS"))
-            std::printf("  %-18s h %.6f change %.3e\n", integrator, h.back(), error.back());
+        error.push_back((stateOf(integrator, n) - stateOf(integrator, 2 * n)).norm());
     }
     return fittedOrder(h, error);
 }
 
 template <class S>
 class SecondOrder : public testing::Test {};
-using Spaces = testing::Types<Space2d, Space3d>;
-TYPED_TEST_SUITE(SecondOrder, Spaces);
+using SecondOrderSpaces = testing::Types<Space2d, Space3d>;
+TYPED_TEST_SUITE(SecondOrder, SecondOrderSpaces);
 
 template <class S>
-WorldDef<S> with(const std::string& integrator) {
+WorldDef<S> earthWith(const std::string& integrator) {
     WorldDef<S> def = earth<S>();
     def.integrator = integrator;
     return def;
 }
 template <class S>
-void run(World<S>& world, double time, int steps) {
+void runSteps(World<S>& world, double time, int steps) {
     for (int i = 0; i < steps; ++i) world.step(time / steps);
 }
 
@@ -76,11 +73,11 @@ TYPED_TEST(SecondOrder, ABlockSlidesToRest) {
     using S = TypeParam;
     const double v0 = 3.217, mu = 0.37, time = 2;
     const auto x = [&](const std::string& integrator, int steps) {
-        World<S> world(with<S>(integrator));
+        World<S> world(earthWith<S>(integrator));
         const auto wood = world.addMaterial(mu, 0);
         addGround<S>(world, wood);
         const BodyId block = addCube<S>(world, 0, 0.5, 0.5, 2, wood, v0);
-        run(world, time, steps);
+        runSteps(world, time, steps);
         return Eigen::VectorXd::Constant(1, world.pose(block).p[0]).eval();
     };
     const Eigen::VectorXd exact = Eigen::VectorXd::Constant(1, v0 * v0 / (2 * mu * kGravity));
@@ -97,11 +94,11 @@ TYPED_TEST(SecondOrder, ASphereSlipsThenRolls) {
     using S = TypeParam;
     const double v0 = 4.1, mu = 0.23, r = 0.1, time = 1.5;
     const auto x = [&](const std::string& integrator, int steps) {
-        World<S> world(with<S>(integrator));
+        World<S> world(earthWith<S>(integrator));
         const auto felt = world.addMaterial(mu, 0);
         addGround<S>(world, felt);
         const BodyId ball = addBall<S>(world, 0, r, r, 1, felt, v0);
-        run(world, time, steps);
+        runSteps(world, time, steps);
         return Eigen::VectorXd::Constant(1, world.pose(ball).p[0]).eval();
     };
     const double slip = 2 * v0 / (7 * mu * kGravity);
@@ -155,9 +152,9 @@ TYPED_TEST(SecondOrder, PendulumsSwing) {
     using S = TypeParam;
     for (const std::vector<double>& angles : {std::vector{1.2}, std::vector{0.9, 1.4}}) {
         const auto state = [&](const std::string& integrator, int steps) {
-            World<S> world(with<S>(integrator));
+            World<S> world(earthWith<S>(integrator));
             const std::vector<BodyId> bodies = addPendulums(world, angles);
-            run(world, 2, steps);
+            runSteps(world, 2, steps);
             return placesAndVelocities(world, bodies);
         };
         EXPECT_NEAR(orderBetweenRuns(state, "moreau_midpoint", 2, {240, 480, 960}), 2, 0.1) << angles.size();
@@ -178,7 +175,7 @@ TYPED_TEST(SecondOrder, ABallBouncesAtTheTimesOfItsImpacts) {
     }
     const double rest = time - fall, height = speed * rest - 0.5 * kGravity * rest * rest;
     for (const int steps : {38, 114, 457, 1824}) {
-        World<S> world(with<S>("moreau_midpoint"));
+        World<S> world(earthWith<S>("moreau_midpoint"));
         const auto rubber = world.addMaterial(0, e);
         addGround<S>(world, rubber);
         const BodyId ball = addBall<S>(world, 0, drop + radius, radius, 1, rubber);
@@ -206,7 +203,7 @@ TYPED_TEST(SecondOrder, StraightWaysBetweenImpactsAreExact) {
         attach<S>(world, world.addBody(wall), HalfSpace<S>{at<S>(-1, 0), -2}, rough);
         const BodyId first = addBall<S>(world, 0, 0.4, 0.1, 1, rough, 1.7, -1.1, 6),
                      second = addBall<S>(world, 0.9, 0.3, 0.15, 2, rough, -0.7, 0.2, -3);
-        run(world, 3, steps);
+        runSteps(world, 3, steps);
         return placesAndVelocities(world, {first, second});
     };
     const Eigen::VectorXd fine = state(3000);
@@ -217,7 +214,7 @@ TYPED_TEST(SecondOrder, StraightWaysBetweenImpactsAreExact) {
 TYPED_TEST(SecondOrder, AStickTumblesOverBounces) {
     using S = TypeParam;
     const auto state = [](const std::string& integrator, int steps) {
-        World<S> world(with<S>(integrator));
+        World<S> world(earthWith<S>(integrator));
         const auto wood = world.addMaterial(0.4, 0.7);
         addGround<S>(world, wood);
         BodyDef<S> def;
@@ -229,7 +226,7 @@ TYPED_TEST(SecondOrder, AStickTumblesOverBounces) {
         def.angularVelocity = spin<S>(2.3);
         const BodyId stick = world.addBody(def);
         attach<S>(world, stick, Capsule<S>{0.3, 0.05}, wood);
-        run(world, 1.2, steps);
+        runSteps(world, 1.2, steps);
         return placesAndVelocities(world, {stick});
     };
     const Eigen::VectorXd fine = state("moreau_midpoint", 4000);
@@ -246,11 +243,11 @@ TYPED_TEST(SecondOrder, ABlockLandsAndSlides) {
     const double fall = std::sqrt(2 * drop / kGravity), landed = vx - mu * kGravity * fall,
                  rest = time - fall;
     const auto x = [&](const std::string& integrator, int steps) {
-        World<S> world(with<S>(integrator));
+        World<S> world(earthWith<S>(integrator));
         const auto wood = world.addMaterial(mu, 0);
         addGround<S>(world, wood);
         const BodyId block = addCube<S>(world, 0, 0.2 + drop, 0.2, 1, wood, vx);
-        run(world, time, steps);
+        runSteps(world, time, steps);
         Eigen::VectorXd all(2);
         all << world.pose(block).p[0], world.pose(block).p[1] - 0.2;
         return all;
@@ -266,7 +263,7 @@ TYPED_TEST(SecondOrder, ABlockLandsAndSlides) {
 TEST(SecondOrderInSpace, ATopTurnsOnItsTip) {
     using S = Space3d;
     const auto state = [&](const std::string& integrator, int steps) {
-        World<S> world(with<S>(integrator));
+        World<S> world(earthWith<S>(integrator));
         BodyDef<S> def;
         def.mass = 0.8;
         def.inertia = Eigen::Vector3d(0.004, 0.003, 0.0045).asDiagonal();
@@ -281,7 +278,7 @@ TEST(SecondOrderInSpace, ATopTurnsOnItsTip) {
         tip.bodyB = top;
         tip.anchorB = {0, -0.1, 0};
         world.addJoint(tip);
-        run(world, 0.5, steps);
+        runSteps(world, 0.5, steps);
         Eigen::VectorXd all(10);
         all << world.pose(top).p, world.pose(top).q.coeffs(), world.velocity(top) / 10;
         return all;
@@ -294,7 +291,7 @@ TEST(SecondOrderInSpace, ATopTurnsOnItsTip) {
 TEST(SecondOrderInSpace, AnUnevenBodyTumblesOverBounces) {
     using S = Space3d;
     const auto state = [](const std::string& integrator, int steps) {
-        World<S> world(with<S>(integrator));
+        World<S> world(earthWith<S>(integrator));
         const auto wood = world.addMaterial(0.4, 0.8);
         addGround<S>(world, wood);
         BodyDef<S> def;
@@ -306,7 +303,7 @@ TEST(SecondOrderInSpace, AnUnevenBodyTumblesOverBounces) {
         def.angularVelocity = {1.5, -4, 2.3};
         const BodyId body = world.addBody(def);
         attach<S>(world, body, Capsule<S>{0.3, 0.05}, wood);
-        run(world, 1.1, steps);
+        runSteps(world, 1.1, steps);
         Eigen::VectorXd all(13);
         all << world.pose(body).p, world.pose(body).q.coeffs(), world.velocity(body),
             world.angularVelocity(body) / 10;
