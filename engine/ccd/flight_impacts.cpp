@@ -33,10 +33,24 @@ typename S::Real touching(const Pose<S>& A, const Pose<S>& B, const ClosestPoint
            std::max(scale, Real(1e-3));
 }
 
+void keepOnce(std::vector<std::uint32_t>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+template <class S>
+bool pushes(const Contact<S>& contact) {
+    const auto count = static_cast<std::size_t>(contact.manifold.count);
+    return std::any_of(contact.impulses.begin(),
+                       contact.impulses.begin() + static_cast<std::ptrdiff_t>(count),
+                       [](const auto& impulse) { return impulse.normal > 0; });
+}
+
 }  // namespace
 
 template <class S>
-void FlightImpacts<S>::begin(const BodyArrays<S>& bodies, std::span<const std::uint8_t> bound) {
+void FlightImpacts<S>::begin(const BodyArrays<S>& bodies, std::span<const std::uint8_t> bound, Real half) {
+    half_ = half;
     const std::size_t n = bodies.size();
     startPose_.assign(bodies.pose.begin(), bodies.pose.end());
     startVelocity_.assign(bodies.velocity.begin(), bodies.velocity.end());
@@ -78,12 +92,18 @@ int FlightImpacts<S>::resolve(const MovedWorld<S>& world, bool bounces, std::vec
         else if (pair.touch.hit)
             hitClusters_.push_back(pair.cluster);
     }
-    std::sort(hitClusters_.begin(), hitClusters_.end());
-    hitClusters_.erase(std::unique(hitClusters_.begin(), hitClusters_.end()), hitClusters_.end());
+    keepOnce(hitClusters_);
+    auto left =
+        static_cast<int>(std::count_if(hitClusters_.begin(), hitClusters_.end(),
+                                       [&](std::uint32_t cluster) { return blocked_[cluster] != 0; }));
+    // The step has stopped some at gaps that they close only in the next one.
+    for (const Contact<S>& contact : world.contacts.list())
+        for (const std::uint32_t body : {contact.bodyA, contact.bodyB})
+            if (flying_[body] && pushes(contact)) hitClusters_.push_back(rootOf(body));
+    keepOnce(hitClusters_);
     const std::size_t before = events.size();
-    int left = 0;
     for (const std::uint32_t cluster : hitClusters_)
-        left += blocked_[cluster] || !runCluster(world, cluster, events);
+        if (!blocked_[cluster]) left += !runCluster(world, cluster, events);
     std::stable_sort(events.begin() + static_cast<std::ptrdiff_t>(before), events.end(),
                      [](const ImpactEvent<S>& e, const ImpactEvent<S>& f) { return e.time < f.time; });
     return left;
@@ -102,8 +122,9 @@ void FlightImpacts<S>::findFlying(const MovedWorld<S>& world) {
         if (!flying_[a] && !flying_[b]) continue;
         for (int i = 0; i < contact.manifold.count; ++i) {
             const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
-            const Vec rA = where.pointA - startPose_[a].p, rB = where.pointB - startPose_[b].p;
             const Velocity<S>&A = startVelocity_[a], &B = startVelocity_[b];
+            const Vec rA = where.pointA - startPose_[a].p - half_ * A.v,
+                      rB = where.pointB - startPose_[b].p - half_ * B.v;
             const Real u = contact.manifold.normal.dot(B.v + cross(B.w, rB) - A.v - cross(A.w, rA));
             if (std::abs(u) > world.restitutionThreshold) continue;
             flying_[a] = flying_[b] = 0;
@@ -281,7 +302,10 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
         Real step;
         if (d <= near) {
             if (u > 0) {
-                touch = {true, false, t, closest};
+                // An impact at the very end of the step is the next one's.
+                touch.hit = t + near / u + Real(1e-9) * world.h < world.h;
+                touch.time = t;
+                touch.closest = closest;
                 return touch;
             }
             // They part. They meet again after twice the time to where they are furthest apart.
@@ -313,10 +337,6 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
                     }
                     t = lo;
                     closest = look(world, pair, t);
-                    if (closest.distance <= near && closingSpeed(pair, world, closest, t) > 0) {
-                        touch = {true, false, t, closest};
-                        return touch;
-                    }
                     continue;
                 }
             }

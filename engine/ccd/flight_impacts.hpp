@@ -8,7 +8,7 @@
 // contact slower than the restitution threshold when the step began. Its way is then known,
 //     p(t) = p_0 + t v_0 + t^2/2 a,   q(t) = exp(t W) q_0       (W the mean angular velocity of free rotation)
 // Bodies in flight whose ways come near each other form a cluster. Where the way of no body of a cluster meets
-// anything, the step stands as it is. Otherwise the cluster is stepped from impact to impact: both bodies go to
+// anything, and no contact pushes one, the step stands as it is. Otherwise the cluster is stepped from impact to impact: both bodies go to
 // where they touch, get the impulses of the impact there (impact.hpp), and go on for what is left of the step.
 // A body that does not bounce stays in contact until the end of the step: with v_h = v + rest a, and impulses
 // that hold the contact and oppose sliding by the law of friction, it moves by rest (v + v_h) / 2.
@@ -38,8 +38,9 @@ class FlightImpacts {
     using Vec = typename S::Vec;
     using Ang = typename S::Ang;
 
-    /// The step begins where the bodies are. Forces act on those with bound[i] != 0, or joints hold them.
-    void begin(const BodyArrays<S>& bodies, std::span<const std::uint8_t> bound);
+    /// The step begins where the bodies are; contacts are found `half` [s] later. Forces act on those with bound[i]
+    /// != 0, or joints hold them.
+    void begin(const BodyArrays<S>& bodies, std::span<const std::uint8_t> bound, Real half);
     // --- around the forces of each sub-step
     void beforeKick(const BodyArrays<S>& bodies);
     void afterKick(const BodyArrays<S>& bodies);
@@ -114,6 +115,7 @@ class FlightImpacts {
         blockers_;  ///< bodies in flight that come near what they cannot meet in flight
     std::vector<std::uint32_t> hitClusters_, members_;
     std::vector<std::pair<Pose<S>, Velocity<S>>> saved_;
+    Real half_ = 0;  ///< time at which contacts were found [s]
     bool bounces_ = true;
     ImpactSolver<S> impactSolver_;
     Manifold<S> manifold_;

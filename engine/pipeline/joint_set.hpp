@@ -19,6 +19,7 @@ struct JointStep {
     BiasRule<typename S::Real> bias;  ///< bias of the rows from position errors
     typename S::Real warmStart;       ///< factor on the last impulses; 0: none
     bool relinearized;                ///< biases are re-linearised at the predicted end of the step
+    bool atMidpoint = false;          ///< the step leads from midpoint to midpoint
     typename S::Real curvature = 1;   ///< factor on that change of the bias; < 1 where the iteration diverges
 };
 

@@ -77,7 +77,7 @@ void Step<S>::beginFlights() {
     bound.assign(bodies_.size(), 0);
     for (const auto& record : joints_.records()) bound[record.joint.a] = bound[record.joint.b] = 1;
     for (const auto& record : world_.forces.records()) bound[record.place.a] = bound[record.place.b] = 1;
-    state_.flights.begin(bodies_, bound);
+    state_.flights.begin(bodies_, bound, Real(0.5) * state_.substepSize);
 }
 
 /// Bodies that have collided in flight go to where that takes them.
@@ -174,7 +174,8 @@ void Step<S>::makeRows() {
     const BiasRule<Real> jointBias =
         def_.relinearizedJoints ? step.bias : algorithms_.style.linearJointBias.value_or(step.bias);
     state_.jointStep = {h, jointBias, step.warmStart,
-                        def_.relinearizedJoints && motion_.movesWithSolvedVelocity()};
+                        def_.relinearizedJoints && motion_.movesWithSolvedVelocity(),
+                        motion_.isAtMidpoint() && !algorithms_.style.positions};
     joints_.addRows(bodies_, state_.jointStep, rows_);
     state_.jointRows = rows_.rows.size();
     if (begins) contactModel_.prepare(contacts_.list(), bodies_, step, tasks_);
