@@ -38,12 +38,12 @@ void keepOnce(std::vector<std::uint32_t>& list) {
     list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+/// True if the step has stopped bodies at a gap that they were closing.
 template <class S>
-bool pushes(const Contact<S>& contact) {
-    const auto count = static_cast<std::size_t>(contact.manifold.count);
-    return std::any_of(contact.impulses.begin(),
-                       contact.impulses.begin() + static_cast<std::ptrdiff_t>(count),
-                       [](const auto& impulse) { return impulse.normal > 0; });
+bool stopsAtGap(const Contact<S>& contact) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+        if (contact.impulses[i].normal > 0 && contact.manifold.points[i].separation > 0) return true;
+    return false;
 }
 
 }  // namespace
@@ -99,7 +99,8 @@ int FlightImpacts<S>::resolve(const MovedWorld<S>& world, bool bounces, std::vec
     // The step has stopped some at gaps that they close only in the next one.
     for (const Contact<S>& contact : world.contacts.list())
         for (const std::uint32_t body : {contact.bodyA, contact.bodyB})
-            if (flying_[body] && pushes(contact)) hitClusters_.push_back(rootOf(body));
+            if (flying_[body] && stopsAtGap(contact) && approaches(world, contact))
+                hitClusters_.push_back(rootOf(body));
     keepOnce(hitClusters_);
     const std::size_t before = events.size();
     for (const std::uint32_t cluster : hitClusters_)
@@ -107,6 +108,24 @@ int FlightImpacts<S>::resolve(const MovedWorld<S>& world, bool bounces, std::vec
     std::stable_sort(events.begin() + static_cast<std::ptrdiff_t>(before), events.end(),
                      [](const ImpactEvent<S>& e, const ImpactEvent<S>& f) { return e.time < f.time; });
     return left;
+}
+
+/// Normal velocity of a point of a contact when the step began; < 0: approaching.
+template <class S>
+typename S::Real FlightImpacts<S>::normalSpeed(const Contact<S>& contact, int point) const {
+    const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(point)];
+    const std::uint32_t a = contact.bodyA, b = contact.bodyB;
+    const Velocity<S>&A = startVelocity_[a], &B = startVelocity_[b];
+    const Vec rA = where.pointA - startPose_[a].p - half_ * A.v,
+              rB = where.pointB - startPose_[b].p - half_ * B.v;
+    return contact.manifold.normal.dot(B.v + cross(B.w, rB) - A.v - cross(A.w, rA));
+}
+
+template <class S>
+bool FlightImpacts<S>::approaches(const MovedWorld<S>& world, const Contact<S>& contact) const {
+    for (int i = 0; i < contact.manifold.count; ++i)
+        if (normalSpeed(contact, i) < -world.restitutionThreshold) return true;
+    return false;
 }
 
 /// Marks the bodies in flight.
@@ -121,12 +140,7 @@ void FlightImpacts<S>::findFlying(const MovedWorld<S>& world) {
         const std::uint32_t a = contact.bodyA, b = contact.bodyB;
         if (!flying_[a] && !flying_[b]) continue;
         for (int i = 0; i < contact.manifold.count; ++i) {
-            const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
-            const Velocity<S>&A = startVelocity_[a], &B = startVelocity_[b];
-            const Vec rA = where.pointA - startPose_[a].p - half_ * A.v,
-                      rB = where.pointB - startPose_[b].p - half_ * B.v;
-            const Real u = contact.manifold.normal.dot(B.v + cross(B.w, rB) - A.v - cross(A.w, rA));
-            if (std::abs(u) > world.restitutionThreshold) continue;
+            if (std::abs(normalSpeed(contact, i)) > world.restitutionThreshold) continue;
             flying_[a] = flying_[b] = 0;
             break;
         }
@@ -301,6 +315,10 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
         if (!(fastest > 0)) return touch;
         Real step;
         if (d <= near) {
+            if (u > 0 && u <= world.restitutionThreshold) {
+                touch.overlapped = true;  // a contact rather than an impact
+                return touch;
+            }
             if (u > 0) {
                 // An impact at the very end of the step is the next one's.
                 touch.hit = t + near / u + Real(1e-9) * world.h < world.h;

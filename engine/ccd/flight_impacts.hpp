@@ -8,14 +8,15 @@
 // contact slower than the restitution threshold when the step began. Its way is then known,
 //     p(t) = p_0 + t v_0 + t^2/2 a,   q(t) = exp(t W) q_0       (W the mean angular velocity of free rotation)
 // Bodies in flight whose ways come near each other form a cluster. Where the way of no body of a cluster meets
-// anything, and no contact pushes one, the step stands as it is. Otherwise the cluster is stepped from impact to impact: both bodies go to
-// where they touch, get the impulses of the impact there (impact.hpp), and go on for what is left of the step.
+// anything, and the step has stopped none at a gap, the step stands as it is. Otherwise the cluster is stepped
+// from impact to impact: both bodies go to where they touch, get the impulses of the impact there (impact.hpp),
+// and go on for what is left of the step.
 // A body that does not bounce stays in contact until the end of the step: with v_h = v + rest a, and impulses
 // that hold the contact and oppose sliding by the law of friction, it moves by rest (v + v_h) / 2.
 //
 // A cluster is left to the step as it is, without impacts at their own times, where
 //   - one of its bodies comes near a body that is not in flight, or a chain, mesh or height field,
-//   - shapes overlap already when the step begins,
+//   - shapes overlap already when the step begins, or approach each other more slowly than the threshold,
 //   - there are more than kMaxImpacts impacts: chattering, which ends in contact,
 //   - a body meets a second one while it is in contact.
 //
@@ -79,6 +80,8 @@ class FlightImpacts {
         Touch touch;
     };
 
+    Real normalSpeed(const Contact<S>& contact, int point) const;
+    bool approaches(const MovedWorld<S>& world, const Contact<S>& contact) const;
     void findFlying(const MovedWorld<S>& world);
     void makeWays(const MovedWorld<S>& world);
     Aabb<S> boxOf(const MovedWorld<S>& world, std::uint32_t shape, Real h) const;

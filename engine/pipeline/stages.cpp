@@ -77,6 +77,11 @@ void Step<S>::beginFlights() {
     bound.assign(bodies_.size(), 0);
     for (const auto& record : joints_.records()) bound[record.joint.a] = bound[record.joint.b] = 1;
     for (const auto& record : world_.forces.records()) bound[record.place.a] = bound[record.place.b] = 1;
+    // What has pressed a body in the last step goes on to do so: a normal that turns in half a step hides it.
+    for (const Contact<S>& contact : contacts_.list())
+        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+            if (contact.impulses[i].normal > 0 && !contact.points[i].impact)
+                bound[contact.bodyA] = bound[contact.bodyB] = 1;
     state_.flights.begin(bodies_, bound, Real(0.5) * state_.substepSize);
 }
 
