@@ -20,8 +20,8 @@ R timeToClose(R d, R u, R a) {
     return sum > 0 ? R(2) * d / sum : R(-1);
 }
 
-/// Distance that counts as touching: rounding of the coordinates, and what the closest points of curved shapes
-/// are exact to.
+/// Distance that counts as touching: rounding of the coordinates, and what the closest points of curved
+/// shapes are exact to.
 template <class S>
 typename S::Real touching(const Pose<S>& A, const Pose<S>& B, const ClosestPoints<S>& closest) {
     using Real = typename S::Real;
@@ -110,6 +110,14 @@ int FlightImpacts<S>::resolve(const MovedWorld<S>& world, bool bounces, std::vec
     return left;
 }
 
+/// Slower approaches are those of contacts: without restitution, of up to twice what forces add in a step.
+template <class S>
+typename S::Real FlightImpacts<S>::slowestImpact(const MovedWorld<S>& world, Real restitution,
+                                                 std::uint32_t a, std::uint32_t b) const {
+    if (restitution > 0) return world.restitutionThreshold;
+    return std::max(world.restitutionThreshold, Real(2) * (gained_[b] - gained_[a]).norm());
+}
+
 /// Normal velocity of a point of a contact when the step began; < 0: approaching.
 template <class S>
 typename S::Real FlightImpacts<S>::normalSpeed(const Contact<S>& contact, int point) const {
@@ -123,8 +131,9 @@ typename S::Real FlightImpacts<S>::normalSpeed(const Contact<S>& contact, int po
 
 template <class S>
 bool FlightImpacts<S>::approaches(const MovedWorld<S>& world, const Contact<S>& contact) const {
+    const Real slowest = slowestImpact(world, contact.coefficients.restitution, contact.bodyA, contact.bodyB);
     for (int i = 0; i < contact.manifold.count; ++i)
-        if (normalSpeed(contact, i) < -world.restitutionThreshold) return true;
+        if (normalSpeed(contact, i) < -slowest) return true;
     return false;
 }
 
@@ -139,8 +148,9 @@ void FlightImpacts<S>::findFlying(const MovedWorld<S>& world) {
     for (const Contact<S>& contact : world.contacts.list()) {
         const std::uint32_t a = contact.bodyA, b = contact.bodyB;
         if (!flying_[a] && !flying_[b]) continue;
+        const Real slowest = slowestImpact(world, contact.coefficients.restitution, a, b);
         for (int i = 0; i < contact.manifold.count; ++i) {
-            if (std::abs(normalSpeed(contact, i)) > world.restitutionThreshold) continue;
+            if (std::abs(normalSpeed(contact, i)) > slowest) continue;
             flying_[a] = flying_[b] = 0;
             break;
         }
@@ -188,8 +198,8 @@ Aabb<S> FlightImpacts<S>::boxOf(const MovedWorld<S>& world, std::uint32_t shape,
     return box;
 }
 
-/// False where the boxes of the starts are further apart than the shapes move relative to each other: neighbours
-/// that fall side by side.
+/// False where the boxes of the starts are further apart than the shapes move relative to each other:
+/// neighbours that fall side by side.
 template <class S>
 bool FlightImpacts<S>::mayTouch(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j) const {
     const ShapeRecord<S>&a = world.contacts.shapes()[i], &b = world.contacts.shapes()[j];
@@ -297,6 +307,8 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
     const ShapeRecord<S>&sa = world.contacts.shapes()[pair.a], &sb = world.contacts.shapes()[pair.b];
     const Way &A = ways_[sa.body], &B = ways_[sb.body];
     constexpr int kMaxLooks = 100;
+    const Real slowest = slowestImpact(
+        world, world.contacts.materials().pair(sa.material, sb.material).restitution, sa.body, sb.body);
     Touch touch;
     Real t = from;
     ClosestPoints<S> closest = look(world, pair, t);
@@ -315,7 +327,7 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
         if (!(fastest > 0)) return touch;
         Real step;
         if (d <= near) {
-            if (u > 0 && u <= world.restitutionThreshold) {
+            if (u > 0 && u <= slowest) {
                 touch.overlapped = true;  // a contact rather than an impact
                 return touch;
             }

@@ -4,24 +4,25 @@
 // Impacts of bodies in flight at their own times within a step, for integrators of second order: a step that
 // takes an impact at its end, or wherever contacts are found, is off by h |v|, whatever its order elsewhere.
 //
-// A body is in flight in a step if nothing acts on it but gravity and a constant force: no joint, no spring, no
-// contact slower than the restitution threshold when the step began. Its way is then known,
-//     p(t) = p_0 + t v_0 + t^2/2 a,   q(t) = exp(t W) q_0       (W the mean angular velocity of free rotation)
-// Bodies in flight whose ways come near each other form a cluster. Where the way of no body of a cluster meets
-// anything, and the step has stopped none at a gap, the step stands as it is. Otherwise the cluster is stepped
-// from impact to impact: both bodies go to where they touch, get the impulses of the impact there (impact.hpp),
-// and go on for what is left of the step.
-// A body that does not bounce stays in contact until the end of the step: with v_h = v + rest a, and impulses
-// that hold the contact and oppose sliding by the law of friction, it moves by rest (v + v_h) / 2.
+// A body is in flight in a step if nothing acts on it but gravity and a constant force: no joint, no
+// spring, no contact slower than an impact when the step began (without restitution, of twice what forces
+// add in a step). Its way is then known,
+//     p(t) = p_0 + t v_0 + t^2/2 a,   q(t) = exp(t W) q_0    (W the mean angular velocity of free rotation)
+// Bodies in flight whose ways come near each other form a cluster. Where the way of no body of a cluster
+// meets anything, and the step has stopped none at a gap, the step stands as it is. Otherwise the cluster
+// is stepped from impact to impact: both bodies go to where they touch, get the impulses of the impact
+// there (impact.hpp), and go on for what is left of the step. A body that does not bounce stays in contact
+// until the end of the step: with v_h = v + rest a, and impulses that hold the contact and oppose sliding
+// by the law of friction, it moves by rest (v + v_h) / 2.
 //
 // A cluster is left to the step as it is, without impacts at their own times, where
 //   - one of its bodies comes near a body that is not in flight, or a chain, mesh or height field,
-//   - shapes overlap already when the step begins, or approach each other more slowly than the threshold,
+//   - shapes overlap already when the step begins, or approach each other more slowly than that,
 //   - there are more than kMaxImpacts impacts: chattering, which ends in contact,
 //   - a body meets a second one while it is in contact.
 //
-// Cost: the boxes of all shapes' ways, sorted, in steps with bodies in flight; the closest points of the pairs
-// that come near each other, about twice each; and what an impact takes.
+// Cost: the boxes of all shapes' ways, sorted, in steps with bodies in flight; the closest points of the
+// pairs that come near each other, about twice each; and what an impact takes.
 #pragma once
 
 #include <vector>
@@ -39,15 +40,15 @@ class FlightImpacts {
     using Vec = typename S::Vec;
     using Ang = typename S::Ang;
 
-    /// The step begins where the bodies are; contacts are found `half` [s] later. Forces act on those with bound[i]
-    /// != 0, or joints hold them.
+    /// The step begins where the bodies are; contacts are found `half` [s] later. Forces act on those with
+    /// bound[i] != 0, or joints hold them.
     void begin(const BodyArrays<S>& bodies, std::span<const std::uint8_t> bound, Real half);
     // --- around the forces of each sub-step
     void beforeKick(const BodyArrays<S>& bodies);
     void afterKick(const BodyArrays<S>& bodies);
-    /// Called when the bodies are where the step of world.h has taken them. Changes poses and velocities of bodies
-    /// that have collided; appends their impacts. Returns how many clusters with impacts were left to the step.
-    /// `bounces` false: no body does.
+    /// Called when the bodies are where the step of world.h has taken them. Changes poses and velocities of
+    /// bodies that have collided; appends their impacts. Returns how many clusters with impacts were left
+    /// to the step. `bounces` false: no body does.
     int resolve(const MovedWorld<S>& world, bool bounces, std::vector<ImpactEvent<S>>& events);
 
   private:
@@ -80,6 +81,7 @@ class FlightImpacts {
         Touch touch;
     };
 
+    Real slowestImpact(const MovedWorld<S>& world, Real restitution, std::uint32_t a, std::uint32_t b) const;
     Real normalSpeed(const Contact<S>& contact, int point) const;
     bool approaches(const MovedWorld<S>& world, const Contact<S>& contact) const;
     void findFlying(const MovedWorld<S>& world);

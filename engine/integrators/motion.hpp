@@ -30,11 +30,11 @@ class Motion {
 
     /// Steps lead from midpoint to midpoint: toMidpoint() before anything else, toEnd() after it.
     bool isAtMidpoint() const { return integrator_.atMidpoint; }
-    /// Moves bodies from the end of the last step to their midpoints: `half` [s] on. The midpoints that are known
-    /// count if `same`: the last (sub-)step was as long. True: some were not known.
+    /// Moves bodies from the end of the last step to their midpoints: `half` [s] on. The midpoints that are
+    /// known count if `same`: the last (sub-)step was as long. True: some were not known.
     bool toMidpoint(BodyArrays<S>& bodies, Real half, bool same, const Tasks& tasks = Tasks::one());
-    /// Takes the bodies' poses and velocities for their next midpoints and moves the bodies back by `half` [s]:
-    /// to the end of the step. `way` are their velocities since the midpoint before.
+    /// Takes the bodies' poses and velocities for their next midpoints and moves the bodies back by `half`
+    /// [s]: to the end of the step. `way` are their velocities since the midpoint before.
     void toEnd(BodyArrays<S>& bodies, std::span<const Velocity<S>> way, Real half,
                const Tasks& tasks = Tasks::one());
     // --- free rotation of one body over h [s] from the orientation q and the angular velocity w there

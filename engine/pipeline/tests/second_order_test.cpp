@@ -162,6 +162,111 @@ TYPED_TEST(SecondOrder, PendulumsSwing) {
     }
 }
 
+/// Energy over 40 000 steps: bounded, with a drift below its oscillation by orders.
+TYPED_TEST(SecondOrder, PendulumsKeepTheirEnergy) {
+    using S = TypeParam;
+    const double mass = 1.3, inertia = 0.07;
+    for (const std::vector<double>& angles : {std::vector{1.2}, std::vector{1.9, 2.4}}) {
+        World<S> world(earthWith<S>("moreau_midpoint"));
+        const std::vector<BodyId> bodies = addPendulums(world, angles);
+        const auto energy = [&] {
+            double sum = 0;
+            for (const BodyId id : bodies) {
+                const double w = spinOf<S>(world.angularVelocity(id));
+                sum += 0.5 * mass * world.velocity(id).squaredNorm() + 0.5 * inertia * w * w +
+                       mass * kGravity * world.pose(id).p[1];
+            }
+            return sum;
+        };
+        const double start = energy();
+        double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
+        constexpr int kSteps = 40000;
+        for (int i = 0; i < kSteps; ++i) {
+            world.step(1.0 / 240);
+            const double change = energy() - start;
+            const int half = 2 * i / kSteps;
+            low[half] = std::min(low[half], change);
+            high[half] = std::max(high[half], change);
+        }
+        const bool tumbles = angles.size() > 1;
+        EXPECT_LT(high[1], tumbles ? 0.3 : 6e-4) << angles.size();
+        EXPECT_GT(low[1], tumbles ? -1e-3 : -1e-7) << angles.size();
+        EXPECT_LT(high[1], 1.5 * high[0]) << angles.size();
+    }
+}
+
+/// The midpoints are part of the state: a copy and a restored world go on as the world does, bit for bit.
+TYPED_TEST(SecondOrder, MidpointsAreState) {
+    using S = TypeParam;
+    const auto make = [] {
+        World<S> world(earthWith<S>("moreau_midpoint"));
+        const auto wood = world.addMaterial(0.4, 0.3);
+        addGround<S>(world, wood);
+        addBall<S>(world, 2, 0.7, 0.2, 1, wood, -1.5);
+        addPendulums(world, {0.9, 1.4});
+        return world;
+    };
+    World<S> world = make(), other = make();
+    runSteps(world, 0.5, 30);
+    std::vector<unsigned char> bytes;
+    world.saveSnapshot(bytes);
+    other.restoreSnapshot(bytes);
+    World<S> copy = world;
+    EXPECT_EQ(other.stateHash(), world.stateHash());
+    for (World<S>* each : {&world, &other, &copy}) runSteps(*each, 0.5, 30);
+    EXPECT_EQ(other.stateHash(), world.stateHash());
+    EXPECT_EQ(copy.stateHash(), world.stateHash());
+}
+
+/// A velocity that is set counts from the end of the last step on.
+TYPED_TEST(SecondOrder, AVelocityThatIsSetMovesTheBody) {
+    using S = TypeParam;
+    World<S> world(earthWith<S>("moreau_midpoint"));
+    const BodyId ball = addBall<S>(world, 0, 5, 0.2, 1, 0, 1, 2);
+    runSteps(world, 0.5, 30);
+    const typename S::Vec from = world.pose(ball).p;
+    world.setVelocity(ball, at<S>(-3, 4), spin<S>(0));
+    runSteps(world, 0.5, 30);
+    EXPECT_NEAR(world.pose(ball).p[0], from[0] - 1.5, 1e-12);
+    EXPECT_NEAR(world.pose(ball).p[1], from[1] + 2 - 0.125 * kGravity, 1e-12);
+    const typename S::Vec then = world.pose(ball).p;
+    runSteps(world, 0.5, 10);  // another step size
+    EXPECT_NEAR(world.pose(ball).p[0], then[0] - 1.5, 1e-12);
+    EXPECT_NEAR(world.pose(ball).p[1], then[1] + 0.5 * (4 - 0.5 * kGravity) - 0.125 * kGravity, 1e-12);
+}
+
+/// A weight on a spring of the joint's, which symplectic Euler treats implicitly, and so damps.
+TYPED_TEST(SecondOrder, AWeightOnAJointSpringSwings) {
+    using S = TypeParam;
+    const auto state = [](const std::string& integrator, int steps) {
+        WorldDef<S> def;
+        def.integrator = integrator;
+        World<S> world(def);
+        BodyDef<S> body;
+        body.mass = 2;
+        body.pose.p = at<S>(0.3, 0);
+        const BodyId weight = world.addBody(body);
+        JointDef<S> rail;
+        rail.type = JointType::Slider;
+        rail.bodyB = weight;
+        rail.anchorA = at<S>(0.3, 0);
+        rail.axisA = rail.axisB = at<S>(1, 0);
+        rail.axes[0].stiffness = 200;
+        rail.axes[0].damping = 1;
+        rail.axes[0].target = 0.2;
+        world.addJoint(rail);
+        runSteps(world, 1.5, steps);
+        return placesAndVelocities(world, {weight});
+    };
+    // m x'' + c x' + k (x - 0.5) = 0 from rest at 0.3
+    const double gamma = 1.0 / 4, w = std::sqrt(100 - gamma * gamma), t = 1.5, decay = std::exp(-gamma * t);
+    Eigen::VectorXd exact = Eigen::VectorXd::Zero(2 * S::dim);
+    exact[0] = 0.5 - 0.2 * decay * (std::cos(w * t) + gamma / w * std::sin(w * t));
+    exact[S::dim] = 0.2 * decay * (100 / w) * std::sin(w * t);
+    EXPECT_NEAR(orderAgainst(state, "moreau_midpoint", t, exact, {90, 180, 360, 720}), 2, 0.1);
+    EXPECT_NEAR(orderAgainst(state, "symplectic_euler", t, exact, {720, 1440, 2880}), 1, 0.1);
+}
+
 // --- impacts
 // ------------------------------------------------------------------------------------------------------
 /// A ball that bounces, 4 or 5 times in 1.9 s: exact at every step size.

@@ -52,8 +52,8 @@ int oscillatorOrder(const std::string& integrator) {
 }
 
 /// From rest at x = 1 the velocity after one step is -h (1 - c h^2) with c = 0 where the force is that of the
-/// start or the middle, 1/4 where it is the mean of both ends, 1/6 with the classical stages; from x = 0, v = 1
-/// it stays 1 where the force is that of the start.
+/// start or the middle, 1/4 where it is the mean of both ends, 1/6 with the classical stages; from x = 0, v
+/// = 1 it stays 1 where the force is that of the start.
 ForceTimes forceTimes(const std::string& integrator) {
     const double h = 0.1;
     const double c = (1 + oscillator(integrator, 1, h)[1] / h) / (h * h);
