@@ -177,24 +177,19 @@ void FlightImpacts<S>::makeWays(const MovedWorld<S>& world) {
     }
 }
 
-/// Contains the shape from the time that its body's way begins to h.
+/// Contains the shape from the time that its body's way begins, when it has the box `box`, to the end.
 template <class S>
-Aabb<S> FlightImpacts<S>::boxOf(const MovedWorld<S>& world, std::uint32_t shape, Real h) const {
+Aabb<S> FlightImpacts<S>::boxOf(const MovedWorld<S>& world, std::uint32_t shape, Aabb<S> box) const {
     const ShapeRecord<S>& record = world.contacts.shapes()[shape];
     const Way& way = ways_[record.body];
-    const Real rest = h - way.begin;
-    const Vec mean = way.velocity.v + (Real(0.5) * rest) * way.acceleration;
-    Aabb<S> box = sweptBox<S>({&record.shape,
-                               record.local,
-                               way.start,
-                               {mean, way.turning},
-                               record.boundingRadius,
-                               record.inscribedRadius},
-                              rest);
+    const Real rest = world.h - way.begin;
+    const Vec d = rest * way.velocity.v + (Real(0.5) * rest * rest) * way.acceleration;
     // The parabola is this far from its chord.
     const Vec bulge = (Real(0.125) * rest * rest) * way.acceleration.cwiseAbs();
-    box.min -= bulge;
-    box.max += bulge;
+    const Real turn =
+        std::min(rest * std::sqrt(dotAng(way.turning, way.turning)), Real(2)) * record.boundingRadius;
+    box.min += d.cwiseMin(Real(0)) - bulge - Vec::Constant(turn);
+    box.max += d.cwiseMax(Real(0)) + bulge + Vec::Constant(turn);
     return box;
 }
 
@@ -229,7 +224,7 @@ void FlightImpacts<S>::findPairs(const MovedWorld<S>& world) {
     for (std::uint32_t i = 0; i < count; ++i) {
         const ShapeRecord<S>& shape = shapes[i];
         startBoxes_[i] = boundingBox<S>(shape.shape, compose<S>(startPose_[shape.body], shape.local));
-        boxes_[i] = boxOf(world, i, world.h);
+        boxes_[i] = boxOf(world, i, startBoxes_[i]);
         order_[i] = i;
     }
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
@@ -535,7 +530,8 @@ bool FlightImpacts<S>::searchFrom(const MovedWorld<S>& world, std::uint32_t body
     const auto count = static_cast<std::uint32_t>(shapes.size());
     for (std::uint32_t i = 0; i < count; ++i) {
         if (shapes[i].body != body) continue;
-        boxes_[i] = boxOf(world, i, world.h);
+        boxes_[i] =
+            boxOf(world, i, boundingBox<S>(shapes[i].shape, compose<S>(ways_[body].start, shapes[i].local)));
         for (std::uint32_t j = 0; j < count; ++j) {
             const std::uint32_t other = shapes[j].body;
             if (other == body || !boxes_[i].overlaps(boxes_[j])) continue;

@@ -52,7 +52,7 @@ class FlightImpacts {
     int resolve(const MovedWorld<S>& world, bool bounces, std::vector<ImpactEvent<S>>& events);
 
   private:
-    static constexpr int kMaxImpacts = 16;  ///< of one cluster in one step
+    static constexpr int kMaxImpacts = 16;  ///< largest number of impacts of one cluster in one step
 
     /// Motion of a body from `begin` to the end of the step.
     struct Way {
@@ -62,7 +62,7 @@ class FlightImpacts {
         Ang turning = zeroAng<S>();  ///< mean angular velocity
         Real begin = 0;              ///< [s]
         bool held = false;           ///< in contact until the end of the step
-        Velocity<S> end;             ///< where it is held: velocity at the end of the step
+        Velocity<S> end;             ///< velocity at the end of the step, if held
         Pose<S> at(Real t) const {
             const Real s = t - begin;
             return {start.p + s * velocity.v + (Real(0.5) * s * s) * acceleration,
@@ -86,7 +86,7 @@ class FlightImpacts {
     bool approaches(const MovedWorld<S>& world, const Contact<S>& contact) const;
     void findFlying(const MovedWorld<S>& world);
     void makeWays(const MovedWorld<S>& world);
-    Aabb<S> boxOf(const MovedWorld<S>& world, std::uint32_t shape, Real h) const;
+    Aabb<S> boxOf(const MovedWorld<S>& world, std::uint32_t shape, Aabb<S> box) const;
     void findPairs(const MovedWorld<S>& world);
     bool mayTouch(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j) const;
     void addPair(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j);
@@ -108,12 +108,12 @@ class FlightImpacts {
     std::vector<Velocity<S>> startVelocity_;
     std::vector<std::uint8_t> bound_;  ///< joints or forces act on it, or it is asleep
     std::vector<std::uint8_t> flying_;
-    std::vector<Vec> beforeKick_, gained_;  ///< what forces have added to the velocities [m/s]
+    std::vector<Vec> beforeKick_, gained_;  ///< velocity added by forces [m/s]
     std::vector<Way> ways_;
     std::vector<std::uint32_t> parent_;  ///< union-find of bodies in flight
-    std::vector<std::uint8_t> blocked_;  ///< of a root: the cluster is left to the step
+    std::vector<std::uint8_t> blocked_;  ///< 1 for a root: its cluster is left to the step
     // --- by dense shape index
-    std::vector<Aabb<S>> boxes_, startBoxes_;  ///< of the ways; of the starts
+    std::vector<Aabb<S>> boxes_, startBoxes_;  ///< boxes of the ways, and of the starts alone
     std::vector<std::uint32_t> order_;         ///< shapes by the lower ends of their boxes
     std::vector<Pair> pairs_, clusterPairs_;
     std::vector<std::uint32_t>

@@ -77,7 +77,7 @@ void Step<S>::beginFlights() {
     bound.assign(bodies_.size(), 0);
     for (const auto& record : joints_.records()) bound[record.joint.a] = bound[record.joint.b] = 1;
     for (const auto& record : world_.forces.records()) bound[record.place.a] = bound[record.place.b] = 1;
-    // What has pressed a body in the last step goes on to do so: a normal that turns in half a step hides it.
+    // A contact that has pressed a body in the last step goes on to do so. Its normal may have turned since.
     for (const Contact<S>& contact : contacts_.list())
         for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
             if (contact.impulses[i].normal > 0 && !contact.points[i].impact)
@@ -129,14 +129,15 @@ void Step<S>::toEnd() {
     if (algorithms_.locatesImpacts) endFlights();
 }
 
-/// Position correction of joints alone, where the bodies are.
+/// Position correction of joints alone, where the bodies are. Errors are of the order h^2: two iterations of
+/// Newton's method leave h^8.
 template <class S>
 void Step<S>::putJointsRight() {
     if (joints_.records().empty() || algorithms_.style.ownsCorrection) return;
     state_.still.assign(bodies_.size(), Velocity<S>{});
     StepPositions<S> positions(bodies_, joints_, state_.noContacts, state_.still, state_.substepSize, Real(0),
                                state_.positions);
-    algorithms_.correction->correct(positions, def_.positionIterations, def_.slop);
+    algorithms_.correction->correct(positions, std::min(def_.positionIterations, 2), def_.slop);
 }
 
 template <class S>

@@ -65,7 +65,7 @@ struct BodyConstants {
     typename S::Real angularVelocityKept = 1;        ///< fraction kept per second for the angular velocity
 };
 
-/// Where bodies come to be half a (sub-)step after the end of the last step: state of integrators that step
+/// Places of the bodies half a (sub-)step after the end of the last step: state of integrators that step
 /// from midpoint to midpoint. Arrays by dense index; empty with other integrators.
 template <class S>
 struct Midpoints {

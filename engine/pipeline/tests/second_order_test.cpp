@@ -3,7 +3,7 @@
 //
 // The order of the integrators of second order with friction, rolling, joints and impacts, by fits over many
 // step sizes: against closed forms, or between runs where there is none. Symplectic Euler, of order 1, is
-// measured beside it, so that the fits are known to tell one from the other.
+// measured beside it: the fits distinguish one from the other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ double orderAgainst(const RunOf& stateOf, const char* integrator, double time, c
     }
     return fittedOrder(h, error);
 }
-/// From the differences of runs with n and 2 n steps.
+/// The order that the differences of runs with n and 2 n steps have.
 double orderBetweenRuns(const RunOf& stateOf, const char* integrator, double time,
                         const std::vector<int>& steps) {
     std::vector<double> h, error;
@@ -83,7 +83,7 @@ TYPED_TEST(SecondOrder, ABlockSlidesToRest) {
     const Eigen::VectorXd exact = Eigen::VectorXd::Constant(1, v0 * v0 / (2 * mu * kGravity));
     std::vector<int> steps;
     for (int n = 60; n <= 2000; n = n * 6 / 5 + 1) steps.push_back(n);
-    // Where in its step the block stops decides between zero and the largest error of order 2.
+    // The error of order 2 is between zero and its largest, depending on when in its step the block stops.
     EXPECT_NEAR(orderAgainst(x, "moreau_midpoint", time, exact, steps), 2, 0.3);
     EXPECT_NEAR(orderAgainst(x, "symplectic_euler", time, exact, steps), 1, 0.1);
     EXPECT_LT((x("moreau_midpoint", 120) - exact).norm(), 5e-4);

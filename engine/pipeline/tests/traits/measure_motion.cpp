@@ -51,7 +51,7 @@ int oscillatorOrder(const std::string& integrator) {
     return static_cast<int>(std::lround(std::log2(error(32) / error(64))));
 }
 
-/// From rest at x = 1 the velocity after one step is -h (1 - c h^2) with c = 0 where the force is that of the
+/// The velocity from rest at x = 1 after one step is -h (1 - c h^2) with c = 0 where the force is that of the
 /// start or the middle, 1/4 where it is the mean of both ends, 1/6 with the classical stages; from x = 0, v
 /// = 1 it stays 1 where the force is that of the start.
 ForceTimes forceTimes(const std::string& integrator) {
