@@ -49,6 +49,10 @@ bool stopsAtGap(const Contact<S>& contact) {
 }  // namespace
 
 template <class S>
+FlightImpacts<S>::FlightImpacts()
+    : broadPhase_(findAlgorithm(broadPhaseTable<S>(), "broad_phase", "wide_tree").make()) {}
+
+template <class S>
 void FlightImpacts<S>::begin(const BodyArrays<S>& bodies, std::span<const std::uint8_t> bound, Real half) {
     half_ = half;
     const std::size_t n = bodies.size();
@@ -78,6 +82,7 @@ void FlightImpacts<S>::afterKick(const BodyArrays<S>& bodies) {
 template <class S>
 int FlightImpacts<S>::resolve(const MovedWorld<S>& world, bool bounces, std::vector<ImpactEvent<S>>& events) {
     bounces_ = bounces;
+    collided_.assign(world.bodies.size(), 0);
     findFlying(world);
     if (std::find(flying_.begin(), flying_.end(), 1) == flying_.end()) return 0;
     makeWays(world);
@@ -145,6 +150,7 @@ void FlightImpacts<S>::findFlying(const MovedWorld<S>& world) {
     flying_.resize(n);
     for (std::size_t i = 0; i < n; ++i)
         flying_[i] = bodies.constants[i].type == BodyType::Dynamic && bodies.invMass[i] > 0 && !bound_[i];
+    if (std::find(flying_.begin(), flying_.end(), 1) == flying_.end()) return;
     for (const Contact<S>& contact : world.contacts.list()) {
         const std::uint32_t a = contact.bodyA, b = contact.bodyB;
         if (!flying_[a] && !flying_[b]) continue;
@@ -213,34 +219,27 @@ bool FlightImpacts<S>::mayTouch(const MovedWorld<S>& world, std::uint32_t i, std
     return true;
 }
 
-/// Pairs of shapes whose boxes overlap, at least one of a body in flight, by a sweep along x [Baraff1992].
+/// Pairs of shapes whose boxes overlap, at least one of a body in flight.
 template <class S>
 void FlightImpacts<S>::findPairs(const MovedWorld<S>& world) {
     const ShapeSet<S>& shapes = world.contacts.shapes();
     const auto count = static_cast<std::uint32_t>(shapes.size());
     boxes_.resize(count);
     startBoxes_.resize(count);
-    order_.resize(count);
+    movable_.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const ShapeRecord<S>& shape = shapes[i];
         startBoxes_[i] = boundingBox<S>(shape.shape, compose<S>(startPose_[shape.body], shape.local));
         boxes_[i] = boxOf(world, i, startBoxes_[i]);
-        order_[i] = i;
+        movable_[i] = flying_[shape.body];
     }
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
-        const Real x = boxes_[i].min[0], y = boxes_[j].min[0];
-        return x != y ? x < y : i < j;
-    });
+    broadPhase_->update(boxes_, movable_, found_);
     parent_.resize(world.bodies.size());
     for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = i;
     blocked_.assign(world.bodies.size(), 0);
     pairs_.clear();
     blockers_.clear();
-    for (std::size_t k = 0; k < count; ++k) {
-        const std::uint32_t i = order_[k];
-        for (std::size_t l = k + 1; l < count && boxes_[order_[l]].min[0] <= boxes_[i].max[0]; ++l)
-            if (boxes_[i].overlaps(boxes_[order_[l]])) addPair(world, i, order_[l]);
-    }
+    for (const ProxyPair& pair : found_) addPair(world, pair.a, pair.b);
     for (const std::uint32_t body : blockers_) blocked_[rootOf(body)] = 1;
     std::sort(pairs_.begin(), pairs_.end(),
               [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
@@ -410,6 +409,7 @@ bool FlightImpacts<S>::runCluster(const MovedWorld<S>& world, std::uint32_t clus
         goTo(world, i, world.h);
         if (ways_[i].held) bodies.velocity[i] = ways_[i].end;
         bodies.leaveMidpoint(i);
+        collided_[i] = 1;
     }
     return true;
 }

@@ -21,14 +21,17 @@
 //   - there are more than kMaxImpacts impacts: chattering, which ends in contact,
 //   - a body meets a second one while it is in contact.
 //
-// Cost: the boxes of all shapes' ways, sorted, in steps with bodies in flight; the closest points of the
+// Cost: a broad phase of all shapes' ways in steps with bodies in flight; the closest points of the
 // pairs that come near each other, about twice each; and what an impact takes.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
+#include "engine/broadphase/broad_phase.hpp"
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/ccd/impact.hpp"
+#include "engine/core/clone_ptr.hpp"
 #include "engine/narrowphase/distance.hpp"
 
 namespace rigor::engine {
@@ -40,6 +43,8 @@ class FlightImpacts {
     using Vec = typename S::Vec;
     using Ang = typename S::Ang;
 
+    FlightImpacts();
+
     /// The step begins where the bodies are; contacts are found `half` [s] later. Forces act on those with
     /// bound[i] != 0, or joints hold them.
     void begin(const BodyArrays<S>& bodies, std::span<const std::uint8_t> bound, Real half);
@@ -50,6 +55,13 @@ class FlightImpacts {
     /// bodies that have collided; appends their impacts. Returns how many clusters with impacts were left
     /// to the step. `bounces` false: no body does.
     int resolve(const MovedWorld<S>& world, bool bounces, std::vector<ImpactEvent<S>>& events);
+
+    /// True if the last resolve() has changed where body i is: the contacts of the step are not those that
+    /// have acted on it.
+    bool hasCollided(std::size_t i) const { return collided_[i] != 0; }
+    bool anyHasCollided() const {
+        return std::find(collided_.begin(), collided_.end(), 1) != collided_.end();
+    }
 
   private:
     static constexpr int kMaxImpacts = 16;  ///< largest number of impacts of one cluster in one step
@@ -107,14 +119,16 @@ class FlightImpacts {
     std::vector<Pose<S>> startPose_;
     std::vector<Velocity<S>> startVelocity_;
     std::vector<std::uint8_t> bound_;  ///< joints or forces act on it, or it is asleep
-    std::vector<std::uint8_t> flying_;
+    std::vector<std::uint8_t> flying_, collided_;
     std::vector<Vec> beforeKick_, gained_;  ///< velocity added by forces [m/s]
     std::vector<Way> ways_;
     std::vector<std::uint32_t> parent_;  ///< union-find of bodies in flight
     std::vector<std::uint8_t> blocked_;  ///< 1 for a root: its cluster is left to the step
     // --- by dense shape index
     std::vector<Aabb<S>> boxes_, startBoxes_;  ///< boxes of the ways, and of the starts alone
-    std::vector<std::uint32_t> order_;         ///< shapes by the lower ends of their boxes
+    std::vector<std::uint8_t> movable_;        ///< 1 for shapes of bodies in flight
+    std::vector<ProxyPair> found_;
+    ClonePtr<BroadPhase<S>> broadPhase_;
     std::vector<Pair> pairs_, clusterPairs_;
     std::vector<std::uint32_t>
         blockers_;  ///< bodies in flight that come near what they cannot meet in flight

@@ -98,6 +98,13 @@ void Step<S>::endFlights() {
                               Real(0)};
     result_.unlocatedImpacts =
         state_.flights.resolve(world, algorithms_.restitution->bounces(), state_.impacts);
+    if (!state_.flights.anyHasCollided()) return;
+    for (Contact<S>& contact : contacts_.list()) {
+        if (!state_.flights.hasCollided(contact.bodyA) && !state_.flights.hasCollided(contact.bodyB))
+            continue;
+        contact.impulses.fill({});
+        contact.totals.fill({});
+    }
 }
 
 /// Integrators that step from midpoint to midpoint begin there.
