@@ -43,6 +43,8 @@ const char* schemeName(Scheme s) {
             return "symplectic_euler";
         case Scheme::ExplicitEuler:
             return "explicit_euler";
+        case Scheme::MoreauMidpoint:
+            return "moreau_midpoint";
         case Scheme::VelocityVerlet:
             return "velocity_verlet";
         case Scheme::RungeKutta4:

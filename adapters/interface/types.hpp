@@ -84,9 +84,10 @@ struct StepCounters {
 };
 
 /// Free-flight scheme of an engine, so that scheme-exact references know what an ideal run of it would give.
-/// Forces are evaluated at the start of the step (Euler), at its start and end (Verlet: at the end with the
-/// velocity v0 + h a0), or at the classical four stages.
-enum class Scheme { Unknown, SymplecticEuler, ExplicitEuler, VelocityVerlet, RungeKutta4 };
+/// Forces are evaluated at the start of the step (Euler), in the middle (Moreau's midpoint rule: at x0 +
+/// h/2 v0, with the velocity v0 + h/2 a(v0)), at its start and end (Verlet: at the end with the velocity v0
+/// + h a0), or at the classical four stages.
+enum class Scheme { Unknown, SymplecticEuler, ExplicitEuler, MoreauMidpoint, VelocityVerlet, RungeKutta4 };
 const char* schemeName(Scheme s);
 bool isEuler(Scheme s);  ///< one evaluation per step, at its start
 

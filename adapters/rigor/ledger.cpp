@@ -96,6 +96,7 @@ class Ledger {
         const engine::ForceTimes times = integrator_.forces;
         add("forces", "functions of time and state",
             times == engine::ForceTimes::Start         ? "evaluated at the start of every step"
+            : times == engine::ForceTimes::Middle      ? "evaluated in the middle of every step"
             : times == engine::ForceTimes::StartAndEnd ? "evaluated at the start and the end of every step"
                                                        : "evaluated at the stages of every step");
     }

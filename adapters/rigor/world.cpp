@@ -211,6 +211,8 @@ class RigorWorld final : public World, public StateSetting {
                 return Scheme::SymplecticEuler;
             case engine::FlightScheme::ExplicitEuler:
                 return Scheme::ExplicitEuler;
+            case engine::FlightScheme::MoreauMidpoint:
+                return Scheme::MoreauMidpoint;
             case engine::FlightScheme::VelocityVerlet:
                 return Scheme::VelocityVerlet;
             case engine::FlightScheme::RungeKutta4:

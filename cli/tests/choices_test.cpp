@@ -27,7 +27,7 @@ json listed() {
 /// The design's menu, stage by stage.
 TEST(Choices, TheWholeMenuIsListed) {
     const std::map<std::string, std::set<std::string>> menu{
-        {"integrator", {"explicit_euler", "symplectic_euler", "velocity_verlet", "rk4"}},
+        {"integrator", {"explicit_euler", "symplectic_euler", "moreau_midpoint", "velocity_verlet", "rk4"}},
         {"orientation_update", {"first_order", "exponential_map"}},
         {"rotation", {"none", "explicit", "implicit", "lie_midpoint", "moser_veselov"}},
         {"broad_phase",

@@ -57,6 +57,16 @@ Velocity<S> straightVelocity(const Pose<S>& start, const Pose<S>& end, const Vel
     return {(end.p - start.p) / h, used.w + logMap(rest) / h};
 }
 
+/// |n x w| of a unit vector and an angular velocity: no point at r turns faster along n than |r| times that.
+template <class R>
+R turningAcross(const Eigen::Matrix<R, 2, 1>&, R w) {
+    return std::abs(w);
+}
+template <class R>
+R turningAcross(const Eigen::Matrix<R, 3, 1>& n, const Eigen::Matrix<R, 3, 1>& w) {
+    return n.cross(w).norm();
+}
+
 /// True if both may cross each other within t [s] without an overlap at the start or the end: their relative
 /// motion is more than half of the sum of their thicknesses.
 template <class S>

@@ -35,16 +35,6 @@ namespace {
 
 constexpr int kMaxSteps = 200;  // a capsule turning at 6000 rad/s beside a wall took 75
 
-/// |n x w| of a body.
-template <class R>
-R turningAcross(const Eigen::Matrix<R, 2, 1>&, R w) {
-    return std::abs(w);
-}
-template <class R>
-R turningAcross(const Eigen::Matrix<R, 3, 1>& n, const Eigen::Matrix<R, 3, 1>& w) {
-    return n.cross(w).norm();
-}
-
 /// Closing speed of two material points.
 template <class S>
 typename S::Real closingSpeed(const MovingShape<S>& a, const MovingShape<S>& b, typename S::Real t,

@@ -40,6 +40,31 @@ SoftTerms<R> springTerms(R k, R c, R h) {
     return {h * k * gamma, gamma};
 }
 
+/// Terms of a spring between midpoints: the row has the bias  biasRate C + velocityRate u,  u = J v before
+/// the forces of the step.
+template <class R>
+struct MidpointTerms {
+    R biasRate = 0;      ///< bias per C [1/s]
+    R velocityRate = 0;  ///< bias per u
+    R gamma = 0;         ///< Row::softness
+};
+
+/// Terms from stiffness and damping, not both 0, for a row of K over a step of h [s] from midpoint to
+/// midpoint, C being that of the first. Where the spring is slow, h^2 k K + h c K <= 1, the force is that
+/// of the mean of C over three midpoints, weighted 1 : 2 : 1 (Newmark's average acceleration
+/// [Newmark1959]), and of the mean of u and J v: order 2, and the spring keeps its energy. Where it is
+/// fast, from 4 on, it is the implicit one above, and in between a mixture of both.
+template <class R>
+MidpointTerms<R> midpointSpringTerms(R k, R c, R K, R h) {
+    const R speed = h * K * (h * k + c);
+    const R mean = speed <= R(1) ? R(1) : speed >= R(4) ? R(0) : (R(4) - speed) / R(3);
+    // Force: -k (C + h (end J v - start u)) - c (after J v + before u).
+    const R end = R(1) - R(0.75) * mean, start = R(0.25) * mean;
+    const R after = R(1) - R(0.5) * mean, before = R(0.5) * mean;
+    const R whole = k * h * end + c * after;
+    return {k / whole, (c * before - k * h * start) / whole, R(1) / (h * whole)};
+}
+
 /// Bias of the velocity rows of a step due to position errors.
 template <class R>
 struct BiasRule {

@@ -64,6 +64,10 @@ class Contacts {
     /// Pairs of boxes that overlap.
     const std::vector<ProxyPair>& pairs() const { return pairs_.overlapping(shapes_); }
 
+    /// keepSides() then refers to where the bodies are now.
+    void beginWays(const BodyArrays<S>& bodies, const Tasks& tasks) {
+        if (!shapes_.surfaces().empty()) shapes_.update(bodies, {}, LookAhead<S>{}, tasks);
+    }
     /// Ends a step: moves bodies that have passed through a surface back (surface_sides.hpp).
     void keepSides(BodyArrays<S>& bodies, const Tasks& tasks) {
         sides_.keep(shapes_, filter_, bodies, tasks);

@@ -48,6 +48,8 @@ struct Integrator {
     MoveBodies<S> move = nullptr;
     bool movesWithSolvedVelocity = true;  ///< constraints of this step already act on this step's motion
     AdvanceFlow<S> advance = nullptr;
+    /// Steps lead from midpoint to midpoint (Motion::toMidpoint, toEnd).
+    bool atMidpoint = false;
 };
 template <class S>
 using IntegratorFactory = Integrator<S> (*)();

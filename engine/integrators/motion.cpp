@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/integrators/motion.hpp"
 
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,54 @@ void Motion<S>::setInertia(BodyArrays<S>& bodies, const Tasks& tasks) {
     tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
         if (bodies.invMass[i] > 0)
             bodies.invInertia[i] = worldInertia<S>(bodies.pose[i].q, bodies.invInertiaLocal[i]);
+    });
+}
+
+template <class S>
+bool Motion<S>::toMidpoint(BodyArrays<S>& bodies, Real half, bool same, const Tasks& tasks) {
+    const std::size_t n = bodies.size();
+    Midpoints<S>& midpoints = bodies.midpoints;
+    midpoints.pose.resize(n);
+    midpoints.velocity.resize(n);
+    midpoints.valid.resize(n, 0);
+    std::atomic<bool> found = false;
+    tasks.forEach(n, kBodyGrain, [&](std::size_t i) {
+        if (bodies.constants[i].type == BodyType::Static || bodies.asleep[i]) return;
+        Pose<S>& X = bodies.pose[i];
+        Velocity<S>& velocity = bodies.velocity[i];
+        if (same && midpoints.valid[i]) {
+            X = midpoints.pose[i];
+            velocity = midpoints.velocity[i];
+            return;
+        }
+        found = true;
+        const typename S::Rot q0 = X.q;
+        const bool dynamic = bodies.invMass[i] > 0;
+        const Ang mean = dynamic ? freeRotation(bodies.constants[i], q0, velocity.w, half) : velocity.w;
+        X.p += half * velocity.v;
+        X.q = turn_(q0, Ang(half * mean));
+        if (dynamic) velocity.w = rotatedVelocity(bodies.constants[i], q0, X.q, velocity.w, mean);
+    });
+    return found;
+}
+
+template <class S>
+void Motion<S>::toEnd(BodyArrays<S>& bodies, std::span<const Velocity<S>> way, Real half,
+                      const Tasks& tasks) {
+    Midpoints<S>& midpoints = bodies.midpoints;
+    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
+        midpoints.valid[i] = 0;
+        if (bodies.constants[i].type == BodyType::Static || bodies.asleep[i]) return;
+        Pose<S>& X = bodies.pose[i];
+        Velocity<S>& velocity = bodies.velocity[i];
+        midpoints.pose[i] = X;
+        midpoints.velocity[i] = velocity;
+        midpoints.valid[i] = 1;
+        X.p -= half * way[i].v;
+        X.q = turn_(X.q, Ang(-half * way[i].w));
+        if (bodies.invMass[i] > 0)
+            velocity.w =
+                rotatedVelocity(bodies.constants[i], midpoints.pose[i].q, X.q, velocity.w, velocity.w);
     });
 }
 
@@ -33,13 +82,34 @@ void Motion<S>::kick(BodyArrays<S>& bodies, const Load<S>& load, Real h, const T
         if (bodies.invMass[i] > 0) bodies.velocity[i] = flow_.velocity[i];
 }
 
+/// Fills wrench_. At the midpoint forces are evaluated again, with the velocities that they lead to there.
+template <class S>
+void Motion<S>::evaluateForces(const BodyArrays<S>& bodies, const Load<S>& load, Real h) {
+    wrench_.assign(bodies.wrench.begin(), bodies.wrench.end());
+    if (!load.forces || load.forces->size() == 0) return;
+    const double begin = load.time, end = load.time + static_cast<double>(h);
+    load.forces->evaluate({begin, end, bodies.pose, bodies.velocity, wrench_});
+    if (!integrator_.atMidpoint) return;
+    const Real half = Real(0.5) * h;
+    middle_.assign(bodies.velocity.begin(), bodies.velocity.end());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (bodies.invMass[i] == 0) continue;
+        const BodyConstants<S>& body = bodies.constants[i];
+        const DampedStep<Real> linear = dampedStep(body.linearVelocityKept, half);
+        const DampedStep<Real> angular = dampedStep(body.angularVelocityKept, half);
+        const Vec acceleration = body.gravityScale * load.gravity + bodies.invMass[i] * wrench_[i].force;
+        middle_[i].v = linear.kept * middle_[i].v + linear.kick * acceleration;
+        middle_[i].w =
+            angular.kept * middle_[i].w + angular.kick * Ang(bodies.invInertia[i] * wrench_[i].torque);
+    }
+    wrench_.assign(bodies.wrench.begin(), bodies.wrench.end());
+    load.forces->evaluate({begin, end, bodies.pose, middle_, wrench_});
+}
+
 template <class S>
 void Motion<S>::kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks) {
     const std::size_t n = bodies.size();
-    wrench_.assign(bodies.wrench.begin(), bodies.wrench.end());
-    if (load.forces)
-        load.forces->evaluate(
-            {load.time, load.time + static_cast<double>(h), bodies.pose, bodies.velocity, wrench_});
+    evaluateForces(bodies, load, h);
     kicked_.resize(n);
     predicted_.resize(n);
     tasks.forEach(n, kBodyGrain, [&](std::size_t i) {

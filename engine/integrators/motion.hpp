@@ -28,6 +28,25 @@ class Motion {
     Motion(const Integrator<S>& integrator, const RotationScheme<S>& rotation, TurnRotation<S> turn)
         : integrator_(integrator), rotation_(rotation), turn_(turn) {}
 
+    /// Steps lead from midpoint to midpoint: toMidpoint() before anything else, toEnd() after it.
+    bool isAtMidpoint() const { return integrator_.atMidpoint; }
+    /// Moves bodies from the end of the last step to their midpoints: `half` [s] on. The midpoints that are
+    /// known count if `same`: the last (sub-)step was as long. True: some were not known.
+    bool toMidpoint(BodyArrays<S>& bodies, Real half, bool same, const Tasks& tasks = Tasks::one());
+    /// Takes the bodies' poses and velocities for their next midpoints and moves the bodies back by `half`
+    /// [s]: to the end of the step. `way` are their velocities since the midpoint before.
+    void toEnd(BodyArrays<S>& bodies, std::span<const Velocity<S>> way, Real half,
+               const Tasks& tasks = Tasks::one());
+    // --- free rotation of one body over h [s] from the orientation q and the angular velocity w there
+    /// Mean angular velocity.
+    Ang freeRotation(const BodyConstants<S>& body, const typename S::Rot& q, const Ang& w, Real h) const {
+        return rotation_.predict(body, q, w, h);
+    }
+    /// Angular velocity in the orientation q1 that the mean velocity leads to.
+    Ang rotatedVelocity(const BodyConstants<S>& body, const typename S::Rot& q, const typename S::Rot& q1,
+                        const Ang& w, const Ang& mean) const {
+        return rotation_.finish ? rotation_.finish(body, q, q1, w, mean, mean) : mean;
+    }
     /// Constraints of a step already act on the motion of that step.
     bool movesWithSolvedVelocity() const { return integrator_.movesWithSolvedVelocity; }
 
@@ -76,6 +95,7 @@ class Motion {
         return inBlocks_ && (load.forces == nullptr || load.forces->size() == 0);
     }
     void kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks);
+    void evaluateForces(const BodyArrays<S>& bodies, const Load<S>& load, Real h);
     void moveAlongFlow(BodyArrays<S>& bodies, Real h, const Tasks& tasks);
 
     Integrator<S> integrator_{};
@@ -84,8 +104,9 @@ class Motion {
     // --- recomputed every sub-step
     std::vector<Velocity<S>> start_;  ///< velocities before kick()
     std::vector<Velocity<S>> used_;
-    std::vector<Ang> kicked_;     ///< angular velocities with forces, without the gyroscopic term
-    std::vector<Ang> predicted_;  ///< angular velocities with the gyroscopic term, before constraints
+    std::vector<Velocity<S>> middle_;  ///< velocities in the middle of the step, for forces
+    std::vector<Ang> kicked_;          ///< angular velocities with forces, without the gyroscopic term
+    std::vector<Ang> predicted_;       ///< angular velocities with the gyroscopic term, before constraints
     std::vector<typename S::Rot> startRotations_;
     std::vector<Wrench<S>> wrench_;
     FreeFlow<S> flow_;

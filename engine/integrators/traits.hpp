@@ -13,10 +13,17 @@
 namespace rigor::engine {
 
 /// A scheme of free flight that is known by name, to compare with an ideal run of it.
-enum class FlightScheme : std::uint8_t { Other, SymplecticEuler, ExplicitEuler, VelocityVerlet, RungeKutta4 };
+enum class FlightScheme : std::uint8_t {
+    Other,
+    SymplecticEuler,
+    ExplicitEuler,
+    MoreauMidpoint,
+    VelocityVerlet,
+    RungeKutta4
+};
 
 /// Times in a step at which the forces are evaluated.
-enum class ForceTimes : std::uint8_t { Start, StartAndEnd, Stages };
+enum class ForceTimes : std::uint8_t { Start, Middle, StartAndEnd, Stages };
 
 struct IntegratorTraits {
     FlightScheme scheme = FlightScheme::Other;

@@ -38,13 +38,24 @@ BlockMatrix<S> invertHard(const Row<S>* equalities, const Block<S>& block) {
     return inverse;
 }
 
+/// Spring of stiffness k and damping c on a row of mobility `K`; `velocities` are those before forces.
+template <class S>
+void setMidpointSpring(const Block<S>& block, typename S::Real k, typename S::Real c, typename S::Real K,
+                       typename S::Real h, std::span<const Velocity<S>> velocities, Row<S>& row) {
+    const MidpointTerms<typename S::Real> terms = midpointSpringTerms(k, c, K, h);
+    const typename S::Real u = rowVelocity<S>(row, velocities[block.a], velocities[block.b]);
+    row.bias = row.relaxedBias = terms.biasRate * row.error + terms.velocityRate * u;
+    row.softness = row.relaxedSoftness = terms.gamma;
+}
+
 /// A spring given by its frequency acts on the effective mass left by the joint: for a door that is its
 /// inertia about the hinge, not about its centre of mass. With the equality rows Jh, c = J M^-1 Jh^T and Kh =
 /// Jh M^-1 Jh^T,
 ///     1/m = K - c Kh^-1 c^T   (the Schur complement of the equality rows).
 template <class S>
 void setSpringFrequency(const Row<S>* equalities, const Block<S>& block,
-                        const Softness<typename S::Real>& spring, typename S::Real h, Row<S>& row) {
+                        const Softness<typename S::Real>& spring, const JointStep<S>& step,
+                        std::span<const Velocity<S>> velocities, Row<S>& row) {
     using Real = typename S::Real;
     const BlockMatrix<S> inverse = invertHard<S>(equalities, block);
     const Real K = rowCoupling<S>(row, row, block);
@@ -57,9 +68,15 @@ void setSpringFrequency(const Row<S>* equalities, const Block<S>& block,
     // A coordinate whose mobility is below the rounding of K cannot move, and the spring has no effect.
     const Real left = K - taken;
     if (!(left > Real(16) * std::numeric_limits<Real>::epsilon() * K)) return;
-    const SoftTerms<Real> terms = softTerms(spring, left, h);
-    row.bias = row.relaxedBias = terms.biasRate * row.error;
-    row.softness = row.relaxedSoftness = terms.gamma;
+    if (step.atMidpoint) {
+        const Real omega = Real(6.283185307179586) * spring.frequency;
+        setMidpointSpring<S>(block, omega * omega / left, Real(2) * spring.dampingRatio * omega / left, left,
+                             step.h, velocities, row);
+    } else {
+        const SoftTerms<Real> terms = softTerms(spring, left, step.h);
+        row.bias = row.relaxedBias = terms.biasRate * row.error;
+        row.softness = row.relaxedSoftness = terms.gamma;
+    }
     row.invK = Real(1) / (K + row.softness);
 }
 
@@ -142,7 +159,8 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
         Row<S>* own = rows.rows.data() + record.firstRow;
         for (std::uint32_t i = record.equalities; i < record.rows; ++i)
             if (made_.law[i].role == RowRole::Spring && made_.law[i].softness.frequency > 0)
-                setSpringFrequency<S>(own, rows.blocks[record.block], made_.law[i].softness, step.h, own[i]);
+                setSpringFrequency<S>(own, rows.blocks[record.block], made_.law[i].softness, step,
+                                      bodies.velocity, own[i]);
     }
     startBias_.resize(rows.rows.size());
     for (std::size_t i = 0; i < startBias_.size(); ++i) startBias_[i] = rows.rows[i].bias;
@@ -162,6 +180,10 @@ void JointSet<S>::addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, 
             row.upper = step.h * law.maxForce;
             break;
         case RowRole::Spring: {
+            if (step.atMidpoint && law.softness.frequency <= 0) {
+                setMidpointSpring<S>(block, law.stiffness, law.damping, K, step.h, bodies.velocity, row);
+                break;
+            }
             const SoftTerms<Real> terms = law.softness.frequency > 0
                                               ? softTerms(law.softness, K, step.h)
                                               : springTerms(law.stiffness, law.damping, step.h);

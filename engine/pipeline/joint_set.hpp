@@ -20,6 +20,7 @@ struct JointStep {
     typename S::Real warmStart;              ///< factor on the last impulses; 0: none
     bool relinearized;                       ///< biases are re-linearised at the predicted end of the step
     IslandSize islands = IslandSize::Usual;  ///< rows are of the joints of these islands
+    bool atMidpoint = false;                 ///< the step leads from midpoint to midpoint
     typename S::Real curvature = 1;  ///< factor on that change of the bias; < 1 where the iteration diverges
 };
 

@@ -91,6 +91,10 @@ void visitState(A& archive, World& world) {
 #define WORLD_FIELD(member) visitValue(archive, world.member);
 #define BODY_FIELD(member) visitValue(archive, bodies.member);
 #include "engine/state/state_fields.def"
+    if (!std::is_same_v<A, HashArchive> || !bodies.midpoints.pose.empty()) {
+#define MIDPOINT_FIELD(member) visitValue(archive, bodies.midpoints.member);
+#include "engine/state/state_fields.def"
+    }
     for (auto& shape : world.contacts.shapes().records()) {
 #define SHAPE_FIELD(member) visitValue(archive, shape.member);
 #include "engine/state/state_fields.def"
@@ -174,6 +178,10 @@ void checkRestored(const WorldParts<S>& world, std::size_t bodyCount) {
                 bodies.asleep.size() == bodyCount && bodies.stillTime.size() == bodyCount &&
                 bodies.islands.size() == bodyCount,
             "another number of bodies");
+    const Midpoints<S>& midpoints = bodies.midpoints;
+    const std::size_t known = midpoints.pose.size();
+    require(known <= bodyCount && midpoints.velocity.size() == known && midpoints.valid.size() == known,
+            "midpoints of another number of bodies");
     for (std::size_t i = 1; i < bodyCount; ++i)
         require(bodyIds.contains(bodies.id[i]) && bodyIds.dense(bodies.id[i]) == i, "a body without a name");
     const ShapeSet<S>& shapes = world.contacts.shapes();

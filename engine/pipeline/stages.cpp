@@ -72,7 +72,84 @@ constexpr double kMostWork = 0.01;
 }  // namespace
 
 template <class S>
+void Step<S>::beginFlights() {
+    std::vector<std::uint8_t>& bound = state_.bound;
+    bound.assign(bodies_.size(), 0);
+    for (const auto& record : joints_.records()) bound[record.joint.a] = bound[record.joint.b] = 1;
+    for (const auto& record : world_.forces.records()) bound[record.place.a] = bound[record.place.b] = 1;
+    // A contact that has pressed a body in the last step goes on to do so. Its normal may have turned since.
+    for (const Contact<S>& contact : contacts_.list())
+        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+            if (contact.impulses[i].normal > 0 && !contact.points[i].impact)
+                bound[contact.bodyA] = bound[contact.bodyB] = 1;
+    state_.flights.begin(bodies_, bound, Real(0.5) * state_.substepSize);
+}
+
+/// Bodies that have collided in flight go to where that takes them.
+template <class S>
+void Step<S>::endFlights() {
+    const MovedWorld<S> world{bodies_,
+                              contacts_,
+                              motion_,
+                              *algorithms_.narrowPhase,
+                              algorithms_.friction,
+                              def_.restitutionThreshold,
+                              state_.size,
+                              Real(0)};
+    result_.unlocatedImpacts =
+        state_.flights.resolve(world, algorithms_.restitution->bounces(), state_.impacts);
+    if (!state_.flights.anyHasCollided()) return;
+    for (Contact<S>& contact : contacts_.list()) {
+        if (!state_.flights.hasCollided(contact.bodyA) && !state_.flights.hasCollided(contact.bodyB))
+            continue;
+        contact.impulses.fill({});
+        contact.totals.fill({});
+    }
+}
+
+/// Integrators that step from midpoint to midpoint begin there.
+template <class S>
+void Step<S>::toMidpoint() {
+    const Real h = state_.substepSize;
+    if (algorithms_.locatesImpacts) beginFlights();
+    contacts_.beginWays(bodies_, tasks_);
+    if (!motion_.toMidpoint(bodies_, Real(0.5) * h, world_.clock.lastSubstepSize == h, tasks_)) return;
+    contacts_.keepSides(bodies_, tasks_);
+    putJointsRight();
+}
+
+/// They show the state between two midpoints.
+template <class S>
+void Step<S>::toEnd() {
+    const Real h = state_.substepSize;
+    std::span<const Velocity<S>> way = motion_.used();
+    if (method_.style.positions) {
+        state_.way.resize(bodies_.size());
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            const Velocity<S>& moved = state_.positions.motion[i];
+            state_.way[i] = {typename S::Vec(moved.v / h), Ang(moved.w / h)};
+        }
+        way = state_.way;
+    }
+    motion_.toEnd(bodies_, way, Real(0.5) * h, tasks_);
+    putJointsRight();
+    if (algorithms_.locatesImpacts) endFlights();
+}
+
+/// Position correction of joints alone, where the bodies are. Errors are of the order h^2: two iterations of
+/// Newton's method leave h^8.
+template <class S>
+void Step<S>::putJointsRight() {
+    if (joints_.records().empty() || method_.style.ownsCorrection) return;
+    state_.still.assign(bodies_.size(), Velocity<S>{});
+    StepPositions<S> positions(bodies_, joints_, state_.noContacts, state_.still, state_.substepSize, Real(0),
+                               state_.positions);
+    algorithms_.correction->correct(positions, std::min(def_.positionIterations, 2), def_.slop);
+}
+
+template <class S>
 void Step<S>::findPairs() {
+    if (motion_.isAtMidpoint()) toMidpoint();
     ContinuousCollision<S>& ccd = *algorithms_.ccd;
     BroadPhase<S>& broadPhase = *algorithms_.broadPhase;
     ccd.predict(bodies_, contacts_.shapes().records(), def_.gravity, state_.size);
@@ -115,8 +192,12 @@ void Step<S>::makeRows() {
     const ContactStep<S> step = contactStep();
     const BiasRule<Real> jointBias =
         method_.relinearizedJoints ? step.bias : method_.style.linearJointBias.value_or(step.bias);
-    state_.jointStep = {h, jointBias, step.warmStart,
-                        method_.relinearizedJoints && motion_.movesWithSolvedVelocity(), step.islands};
+    state_.jointStep = {h,
+                        jointBias,
+                        step.warmStart,
+                        method_.relinearizedJoints && motion_.movesWithSolvedVelocity(),
+                        step.islands,
+                        motion_.isAtMidpoint() && !method_.style.positions};
     joints_.addRows(bodies_, state_.jointStep, rows_);
     state_.jointRows = rows_.rows.size();
     if (begins) contactModel_.prepare(contacts_.list(), bodies_, step, tasks_);
@@ -174,8 +255,10 @@ template <class S>
 void Step<S>::kick() {
     const double now = world_.clock.time + state_.substep * static_cast<double>(state_.substepSize);
     algorithms_.ccd->remember(bodies_);
+    if (algorithms_.locatesImpacts) state_.flights.beforeKick(bodies_);
     motion_.kick(bodies_, {def_.gravity, &world_.forces, now}, state_.substepSize, tasks_);
     algorithms_.ccd->rememberKick(bodies_);
+    if (algorithms_.locatesImpacts) state_.flights.afterKick(bodies_);
 }
 
 template <class S>
@@ -313,6 +396,7 @@ void Step<S>::advanceContacts() {
     template void Step<S>::relax();          \
     template void Step<S>::solvePositions(); \
     template void Step<S>::correct();        \
+    template void Step<S>::toEnd();          \
     template SleepStep<S> Step<S>::sleepStep();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

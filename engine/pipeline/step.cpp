@@ -113,6 +113,7 @@ void Step<S>::begin(Real h) {
     state_.active = true;
     state_.stagesDone = state_.substep = 0;
     state_.size = h;
+    state_.substepSize = h / Real(algorithms_.usual.substeps);
     state_.anyUsual = true;
     state_.anyLarge = false;
 }
@@ -169,6 +170,7 @@ void Step<S>::end() {
     tasks_.forEach(bodies_.size(), kBodyGrain, [this](std::size_t i) { bodies_.wrench[i] = {}; });
     contacts_.keepSides(bodies_, tasks_);
     if (algorithms_.sleeping.rest) algorithms_.sleeping.rest(sleepStep());
+    if (motion_.isAtMidpoint()) toEnd();
     result_.nonFinite = !isFinite();
     world_.clock.time += static_cast<double>(state_.size);
     ++world_.clock.steps;

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "engine/ccd/flight_impacts.hpp"
 #include "engine/pipeline/step_positions.hpp"
 #include "engine/pipeline/step_result.hpp"
 #include "engine/pipeline/world_parts.hpp"
@@ -32,6 +33,10 @@ struct StepState {
     std::size_t jointRows = 0;  ///< number of joint rows; they come first in `rows`
     std::vector<Real> warmStart;
     PositionScratch<S> positions;
+    ConstraintRows<S> noContacts;         ///< always empty
+    std::vector<Velocity<S>> still, way;  ///< zero; velocities of each body in the last sub-step
+    FlightImpacts<S> flights;
+    std::vector<std::uint8_t> bound;  ///< bodies that joints hold or forces act on
     // --- what the result refers to
     std::vector<Real> residuals;
     std::vector<ImpactEvent<S>> impacts;
@@ -94,6 +99,11 @@ class Step {
     void correct();
 
     // --- data shared by them
+    void toMidpoint();
+    void toEnd();
+    void putJointsRight();
+    void beginFlights();
+    void endFlights();
     ContactStep<S> contactStep() const;
     BiasRule<Real> biasRule() const;
     void solveVelocities(int iterations, bool warmStarted);

@@ -47,7 +47,7 @@ template <class S>
 bool allowsLargeIslands(const WorldDef<S>& def, const StepAlgorithms<S>& chosen) {
     return chosen.fault == nullptr && frictionShape(def.friction) == FrictionShape::Cone &&
            !chosen.restitution->solvesImpacts() && !def.measureResiduals &&
-           !continuousCollisionTraits(def.continuousCollision).acts;
+           !chosen.usual.motion.isAtMidpoint() && !continuousCollisionTraits(def.continuousCollision).acts;
 }
 
 template <class S>
@@ -106,6 +106,10 @@ StepAlgorithms<S>::StepAlgorithms(const WorldDef<S>& def) {
     narrowPhase = def.customNarrowPhase ? def.customNarrowPhase : makeNarrowPhase<S>(def.narrowPhase);
     makeManifold = findAlgorithm(manifoldTable<S>(), "manifold", def.manifold).make;
     checkChoices<S>(def, *this);
+    // Its impacts obey Newton's law, and not twice what continuous collision resolves.
+    locatesImpacts = usual.motion.isAtMidpoint() &&
+                     !continuousCollisionTraits(def.continuousCollision).acts &&
+                     !restitution->solvesImpacts() && fault == nullptr;
     if (!solverTraits(def.solver).largeIslands.empty() && allowsLargeIslands<S>(def, *this))
         large = makeLargeMethod<S>(def);
 }

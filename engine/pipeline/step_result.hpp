@@ -48,11 +48,14 @@ struct StepResult {
     std::size_t pairs = 0, contacts = 0, rows = 0;
     std::size_t narrowPhaseCalls = 0;  ///< narrow-phase queries: pairs, or pieces of surfaces
     int iterations = 0;                ///< iterations of the solver in all sub-steps
-    /// Collisions that continuous_collision = conservative_advancement has found, in the order of their
-    /// times.
+    /// Collisions that continuous_collision = conservative_advancement or the integrator has found at their
+    /// own times, in the order of these.
     std::span<const ImpactEvent<S>> impacts;
     std::size_t sleeping = 0;  ///< bodies asleep at the end of the step
-    bool impactsCut = false;   ///< a body had too many of them and lost the rest of its time
+    /// Groups of bodies in flight whose impacts the step has treated as those of other bodies, because they
+    /// were too many or not of bodies in flight alone (ccd/flight_impacts.hpp).
+    int unlocatedImpacts = 0;
+    bool impactsCut = false;  ///< a body had too many of them and lost the rest of its time
     /// Quantity in `residuals`, one per iteration [m/s or rad/s].
     ResidualMeasure measure = ResidualMeasure::Change;
     std::span<const typename S::Real> residuals;

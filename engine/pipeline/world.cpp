@@ -160,6 +160,7 @@ void World<S>::setVelocity(BodyId body, const Vec& velocity, const Ang& angularV
             "a static body has no velocity");
     parts_.wakeIslandOf(i);
     parts_.bodies.arrays().velocity[i] = {velocity, angularVelocity};
+    parts_.bodies.arrays().leaveMidpoint(i);
 }
 
 template <class S>

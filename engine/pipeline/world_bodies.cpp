@@ -112,6 +112,16 @@ typename WorldBodies<S>::Removed WorldBodies<S>::remove(BodyId body) {
     fill(arrays_.invInertiaLocal);
     fill(arrays_.invInertia);
     fill(arrays_.id);
+    // They may be fewer than the bodies.
+    Midpoints<S>& midpoints = arrays_.midpoints;
+    if (!midpoints.pose.empty()) {
+        midpoints.pose.resize(last + 1);
+        midpoints.velocity.resize(last + 1);
+        midpoints.valid.resize(last + 1, 0);
+        fill(midpoints.pose);
+        fill(midpoints.velocity);
+        fill(midpoints.valid);
+    }
     ids_.remove(body);
     if (gone != last) ids_.move(arrays_.id[gone], gone);
     return {gone, last};
@@ -131,6 +141,7 @@ void WorldBodies<S>::applyImpulse(std::uint32_t body, const typename S::Vec& imp
     arrays_.velocity[body].v += arrays_.invMass[body] * impulse;
     arrays_.velocity[body].w += typename S::Ang(
         worldInertia<S>(arrays_.pose[body].q, arrays_.invInertiaLocal[body]) * angularImpulse);
+    arrays_.leaveMidpoint(body);
 }
 
 RIGOR_INSTANTIATE_CLASS(WorldBodies)

@@ -66,6 +66,15 @@ struct BodyConstants {
     typename S::Real angularVelocityKept = 1;        ///< fraction kept per second for the angular velocity
 };
 
+/// Places of the bodies half a (sub-)step after the end of the last step: state of integrators that step
+/// from midpoint to midpoint. Arrays by dense index; empty with other integrators.
+template <class S>
+struct Midpoints {
+    std::vector<Pose<S>> pose;
+    std::vector<Velocity<S>> velocity;  ///< the angular velocity is that of the orientation there
+    std::vector<std::uint8_t> valid;    ///< 0: to be found anew from the body's pose and velocity
+};
+
 template <class S>
 struct BodyArrays {
     // --- state (state_fields.def)
@@ -75,6 +84,7 @@ struct BodyArrays {
     std::vector<std::uint8_t> asleep;         ///< 1: left out of the step (sleep.hpp)
     std::vector<typename S::Real> stillTime;  ///< time at rest, if bodies may sleep [s]
     std::vector<IslandSize> islands;          ///< size of the island that each had in the last step
+    Midpoints<S> midpoints;
     // --- constant
     std::vector<BodyConstants<S>> constants;
     std::vector<typename S::Real> invMass;             ///< [1/kg]; 0 unless dynamic and awake
@@ -84,6 +94,10 @@ struct BodyArrays {
     std::vector<typename S::Inertia> invInertia;  ///< world axes, at the start-of-step pose
 
     std::size_t size() const { return pose.size(); }
+    /// Called when the velocity of body i has been changed from outside a step.
+    void leaveMidpoint(std::size_t i) {
+        if (i < midpoints.valid.size()) midpoints.valid[i] = 0;
+    }
 };
 
 }  // namespace rigor::engine

@@ -16,8 +16,11 @@
 namespace rigor::engine::test {
 namespace {
 
-const std::map<std::string, double> kOrder{
-    {"explicit_euler", 1}, {"symplectic_euler", 1}, {"velocity_verlet", 2}, {"rk4", 4}};
+const std::map<std::string, double> kOrder{{"explicit_euler", 1},
+                                           {"symplectic_euler", 1},
+                                           {"moreau_midpoint", 2},
+                                           {"velocity_verlet", 2},
+                                           {"rk4", 4}};
 
 /// Everything the world says of its bodies, in one vector.
 template <class S>

@@ -105,6 +105,7 @@ struct Scene {
 };
 constexpr Scene kScenes[] = {
     {.name = "default"},
+    {.name = "moreau_midpoint", .integrator = "moreau_midpoint"},
     {.name = "pgs_verlet", .solver = "pgs", .integrator = "velocity_verlet", .narrowPhase = "gjk_epa"},
     {.name = "pgs_soft", .solver = "pgs_soft", .rotation = "explicit", .correction = "soft"},
     {.name = "single_pass", .solver = "single_pass", .rotation = "none", .correction = "baumgarte"},

@@ -74,7 +74,8 @@ class LinearDrag : public Reference {
         const double z = d.dragRate * dt;
         // Factor on v - vinf in one step: the exponential series up to the order of the scheme.
         double factor = 1.0 - z;
-        if (scheme == adapter::Scheme::VelocityVerlet) factor += z * z / 2;
+        const bool midpoint = scheme == adapter::Scheme::MoreauMidpoint;
+        if (midpoint || scheme == adapter::Scheme::VelocityVerlet) factor += z * z / 2;
         if (scheme == adapter::Scheme::RungeKutta4) factor += z * z / 2 - z * z * z / 6 + z * z * z * z / 24;
         Vec3 velocity, com;
         if (d.dragRate * dt == 0.0) {
@@ -85,11 +86,14 @@ class LinearDrag : public Reference {
             com = d.com + t * d.velocity + (0.5 * t * (t + shift)) * d.acceleration;
         } else {
             // v(k) = vinf + (v0 - vinf) q^k: the sums of v(1..n) or v(0..n-1) are geometric. The others move
-            // by h (1 - q)/z (v - vinf) beyond h vinf, whose sum is the same with another last factor.
+            // by h (1 - q)/z (v - vinf) beyond h vinf, whose sum is the same with another last factor; the
+            // midpoint rule by h (1 + q)/2 (v - vinf).
             const Vec3 limit = d.acceleration / d.dragRate, excess = d.velocity - limit;
             const double power = std::pow(factor, n), sum = (1.0 - power) / (d.dragRate * dt);
             velocity = limit + power * excess;
-            const double first = scheme == adapter::Scheme::SymplecticEuler ? factor : 1.0;
+            const double first = scheme == adapter::Scheme::SymplecticEuler ? factor
+                                 : midpoint ? (1.0 - 0.5 * z + 0.25 * z * z) / (1.0 - 0.5 * z)
+                                            : 1.0;
             com = d.com + (n * dt) * limit + (dt * first * sum) * excess;
         }
         PartialState state = stateOf(*d.body, com, velocity);

@@ -141,6 +141,11 @@ class SpringOscillator : public Reference {
         const double k = dt * stiffness_ / mass_, c = dt * damping_ / mass_;
         if (scheme == adapter::Scheme::ExplicitEuler) return {1.0, dt, -k, 1.0 - c};
         if (scheme == adapter::Scheme::SymplecticEuler) return {1.0 - dt * k, dt * (1.0 - c), -k, 1.0 - c};
+        if (scheme == adapter::Scheme::MoreauMidpoint) {
+            // y = x + h/2 v, v1 = v + h a(y, v + h/2 a(y, v)), x1 = y + h/2 v1
+            const double va = -k * (1.0 - 0.5 * c), vb = 1.0 + 0.5 * dt * va - c * (1.0 - 0.5 * c);
+            return {1.0 + 0.5 * dt * va, 0.5 * dt * (1.0 + vb), va, vb};
+        }
         if (scheme == adapter::Scheme::VelocityVerlet) {
             // x1 = x + h v + h^2/2 a(x, v), v1 = v + h/2 (a(x, v) + a(x1, v + h a(x, v)))
             const double x1 = 1.0 - 0.5 * dt * k, x1v = dt * (1.0 - 0.5 * c);

@@ -482,6 +482,12 @@ TEST(PendulumChain, KeepsItsEnergyAndItsJoints) {
 /// One step of a scheme of several stages, by hand.
 template <class F>
 void stepOf(Scheme scheme, const F& acceleration, double h, Vec3& x, Vec3& v) {
+    if (scheme == Scheme::MoreauMidpoint) {
+        x += (0.5 * h) * v;
+        v += h * acceleration(x, v + (0.5 * h) * acceleration(x, v));
+        x += (0.5 * h) * v;
+        return;
+    }
     if (scheme == Scheme::VelocityVerlet) {
         const Vec3 a0 = acceleration(x, v);
         x += h * v + (0.5 * h * h) * a0;
@@ -508,7 +514,7 @@ TEST(HigherSchemes, AreSteppedByHand) {
     spring.bodies[0].velocity = {0, 0, 1.5};
     spring.forces.push_back(SpringForce{kNone, 0, {}, {}, 50, 1.7, 9.0});
     setReference(spring, "spring_oscillator");
-    for (const Scheme scheme : {Scheme::VelocityVerlet, Scheme::RungeKutta4})
+    for (const Scheme scheme : {Scheme::MoreauMidpoint, Scheme::VelocityVerlet, Scheme::RungeKutta4})
         for (const Scenario* s : {&flight, &drag, &spring}) {
             const auto reference = makeReference(*s);
             Vec3 x = s->bodies[0].pose.position, v = s->bodies[0].velocity;

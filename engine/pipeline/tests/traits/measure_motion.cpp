@@ -29,11 +29,11 @@ double fallOfOneStep(const std::string& integrator) {
 }
 
 /// A unit mass on a spring of 1 N/m, from rest at x = 1, after `steps` steps of `h`.
-Eigen::Vector2d oscillator(const std::string& integrator, int steps, double h) {
+Eigen::Vector2d oscillator(const std::string& integrator, int steps, double h, double x = 1, double v = 0) {
     WorldDef<S> def;
     def.integrator = integrator;
     World<S> world(def);
-    const BodyId ball = addBall<S>(world, 1, 0, 0.1, 1, 0);
+    const BodyId ball = addBall<S>(world, x, 0, 0.1, 1, 0, v);
     LinearSpring<S> spring;
     spring.bodyB = ball;
     spring.stiffness = 1;
@@ -51,19 +51,22 @@ int oscillatorOrder(const std::string& integrator) {
     return static_cast<int>(std::lround(std::log2(error(32) / error(64))));
 }
 
-/// The velocity after one step is -h (1 - c h^2) with c = 0 where the force is that of the start, 1/4 where
-/// it is the mean of both ends, 1/6 with the classical stages.
+/// The velocity from rest at x = 1 after one step is -h (1 - c h^2) with c = 0 where the force is that of the
+/// start or the middle, 1/4 where it is the mean of both ends, 1/6 with the classical stages; from x = 0, v
+/// = 1 it stays 1 where the force is that of the start.
 ForceTimes forceTimes(const std::string& integrator) {
     const double h = 0.1;
     const double c = (1 + oscillator(integrator, 1, h)[1] / h) / (h * h);
-    if (std::abs(c) < 1e-3) return ForceTimes::Start;
+    if (std::abs(c) < 1e-3)
+        return oscillator(integrator, 1, h, 0, 1)[1] == 1 ? ForceTimes::Start : ForceTimes::Middle;
     return std::abs(c - 0.25) < 1e-3 ? ForceTimes::StartAndEnd : ForceTimes::Stages;
 }
 
-FlightScheme flightScheme(double fall, int order) {
+FlightScheme flightScheme(double fall, int order, ForceTimes forces) {
     const auto is = [&](double share, int n) { return std::abs(fall - share) < 1e-9 && order == n; };
     if (is(1, 1)) return FlightScheme::SymplecticEuler;
     if (is(0, 1)) return FlightScheme::ExplicitEuler;
+    if (is(0.5, 2) && forces == ForceTimes::Middle) return FlightScheme::MoreauMidpoint;
     if (is(0.5, 2)) return FlightScheme::VelocityVerlet;
     if (is(0.5, 4)) return FlightScheme::RungeKutta4;
     return FlightScheme::Other;
@@ -147,8 +150,8 @@ void checkBlocks(const Traits& declared, const WorldDef<S>& def, std::vector<std
 IntegratorTraits measureIntegrator(const std::string& name) {
     IntegratorTraits t;
     t.order = oscillatorOrder(name);
-    t.scheme = flightScheme(fallOfOneStep(name), t.order);
     t.forces = forceTimes(name);
+    t.scheme = flightScheme(fallOfOneStep(name), t.order, t.forces);
     t.ownsRotation = ownsRotation(name);
     return t;
 }

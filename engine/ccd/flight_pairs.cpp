@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The bodies that fly in a step, their ways, and the pairs of shapes whose ways come near each other.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/ccd/flight_impacts.hpp"
+#include "engine/state/sleep.hpp"
+
+namespace rigor::engine {
+
+/// Marks the bodies in flight.
+template <class S>
+void FlightImpacts<S>::findFlying(const MovedWorld<S>& world) {
+    const BodyArrays<S>& bodies = world.bodies;
+    const std::size_t n = bodies.size();
+    flying_.resize(n);
+    for (std::size_t i = 0; i < n; ++i)
+        flying_[i] = bodies.constants[i].type == BodyType::Dynamic && bodies.invMass[i] > 0 && !bound_[i];
+    if (std::find(flying_.begin(), flying_.end(), 1) == flying_.end()) return;
+    for (const Contact<S>& contact : world.contacts.list()) {
+        const std::uint32_t a = contact.bodyA, b = contact.bodyB;
+        if (!flying_[a] && !flying_[b]) continue;
+        const Real slowest = slowestImpact(world, contact.coefficients.restitution, a, b);
+        for (int i = 0; i < contact.manifold.count; ++i) {
+            if (std::abs(normalSpeed(contact, i)) > slowest) continue;
+            flying_[a] = flying_[b] = 0;
+            break;
+        }
+    }
+}
+
+template <class S>
+void FlightImpacts<S>::makeWays(const MovedWorld<S>& world) {
+    const BodyArrays<S>& bodies = world.bodies;
+    ways_.resize(bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        Way& way = ways_[i];
+        way = {startPose_[i], startVelocity_[i], Vec::Zero(), startVelocity_[i].w, 0, false, {}};
+        if (flying_[i]) {
+            way.acceleration = gained_[i] / world.h;
+            way.turning =
+                world.motion.freeRotation(bodies.constants[i], way.start.q, way.velocity.w, world.h);
+        } else if (bodies.constants[i].type == BodyType::Dynamic) {
+            way.velocity = {Vec((bodies.pose[i].p - way.start.p) / world.h), startVelocity_[i].w};
+        } else if (bodies.constants[i].type == BodyType::Static) {
+            way.velocity = {};
+            way.turning = zeroAng<S>();
+        }
+    }
+}
+
+/// Contains the shape from the time that its body's way begins, when it has the box `box`, to the end.
+template <class S>
+Aabb<S> FlightImpacts<S>::boxOf(const MovedWorld<S>& world, std::uint32_t shape, Aabb<S> box) const {
+    const ShapeRecord<S>& record = world.contacts.shapes()[shape];
+    const Way& way = ways_[record.body];
+    const Real rest = world.h - way.begin;
+    const Vec d = rest * way.velocity.v + (Real(0.5) * rest * rest) * way.acceleration;
+    // The parabola is this far from its chord.
+    const Vec bulge = (Real(0.125) * rest * rest) * way.acceleration.cwiseAbs();
+    const Real turn =
+        std::min(rest * std::sqrt(dotAng(way.turning, way.turning)), Real(2)) * record.boundingRadius;
+    box.min += d.cwiseMin(Real(0)) - bulge - Vec::Constant(turn);
+    box.max += d.cwiseMax(Real(0)) + bulge + Vec::Constant(turn);
+    return box;
+}
+
+/// False where the boxes of the starts are further apart than the shapes move relative to each other:
+/// neighbours that fall side by side.
+template <class S>
+bool FlightImpacts<S>::mayTouch(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j) const {
+    const ShapeRecord<S>&a = world.contacts.shapes()[i], &b = world.contacts.shapes()[j];
+    const Way &A = ways_[a.body], &B = ways_[b.body];
+    const Real h = world.h;
+    const Real turning = std::sqrt(dotAng(A.turning, A.turning)) * a.boundingRadius +
+                         std::sqrt(dotAng(B.turning, B.turning)) * b.boundingRadius;
+    const Vec motion = (h * (A.velocity.v - B.velocity.v)).cwiseAbs() +
+                       (Real(0.5) * h * h * (A.acceleration - B.acceleration)).cwiseAbs() +
+                       Vec::Constant(h * turning);
+    for (int k = 0; k < S::dim; ++k) {
+        const Real gap = std::max(startBoxes_[i].min[k] - startBoxes_[j].max[k],
+                                  startBoxes_[j].min[k] - startBoxes_[i].max[k]);
+        if (gap > motion[k]) return false;
+    }
+    return true;
+}
+
+/// Pairs of shapes whose boxes overlap, at least one of a body in flight.
+template <class S>
+void FlightImpacts<S>::findPairs(const MovedWorld<S>& world) {
+    const ShapeSet<S>& shapes = world.contacts.shapes();
+    const auto count = static_cast<std::uint32_t>(shapes.size());
+    boxes_.resize(count);
+    startBoxes_.resize(count);
+    movable_.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const ShapeRecord<S>& shape = shapes[i];
+        startBoxes_[i] = boundingBox<S>(shape.shape, compose<S>(startPose_[shape.body], shape.local));
+        boxes_[i] = boxOf(world, i, startBoxes_[i]);
+        movable_[i] = flying_[shape.body];
+    }
+    broadPhase_->update(boxes_, movable_, found_);
+    parent_.resize(world.bodies.size());
+    for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = i;
+    blocked_.assign(world.bodies.size(), 0);
+    pairs_.clear();
+    blockers_.clear();
+    for (const ProxyPair& pair : found_) addPair(world, pair.a, pair.b);
+    for (const std::uint32_t body : blockers_) blocked_[rootOf(body)] = 1;
+    std::sort(pairs_.begin(), pairs_.end(),
+              [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+}
+
+template <class S>
+void FlightImpacts<S>::addPair(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j) {
+    const ShapeSet<S>& shapes = world.contacts.shapes();
+    const std::uint32_t bi = shapes[i].body, bj = shapes[j].body;
+    if (bi == bj || !(flying_[bi] || flying_[bj])) return;
+    if (!mayTouch(world, i, j) || !world.contacts.filter().mayCollide(world.bodies, bi, bj)) return;
+    const bool meets = (flying_[bi] || world.bodies.constants[bi].type != BodyType::Dynamic) &&
+                       (flying_[bj] || world.bodies.constants[bj].type != BodyType::Dynamic) &&
+                       !isComposite<S>(shapes[i].shape) && !isComposite<S>(shapes[j].shape);
+    if (flying_[bi] && flying_[bj]) {
+        const std::uint32_t a = rootOf(bi), b = rootOf(bj);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+    if (!meets) {
+        blockers_.push_back(flying_[bi] ? bi : bj);
+        return;
+    }
+    Pair pair;
+    pair.a = bi < bj ? i : j;
+    pair.b = bi < bj ? j : i;
+    pairs_.push_back(pair);
+}
+
+#define RIGOR_INSTANTIATE(S)                                                                            \
+    template void FlightImpacts<S>::findFlying(const MovedWorld<S>&);                                   \
+    template void FlightImpacts<S>::makeWays(const MovedWorld<S>&);                                     \
+    template void FlightImpacts<S>::findPairs(const MovedWorld<S>&);                                    \
+    template bool FlightImpacts<S>::mayTouch(const MovedWorld<S>&, std::uint32_t, std::uint32_t) const; \
+    template void FlightImpacts<S>::addPair(const MovedWorld<S>&, std::uint32_t, std::uint32_t);
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine
