@@ -13,8 +13,8 @@ template <class S>
 struct ContactSearch {
     using Real = typename S::Real;
     Real speculativeDistance = 0, cacheTolerance = 0, boxMargin = 0;
-    Real motionTime = 0;            ///< speculativeMotion of the step [s]
-    bool bouncesAhead = false;      ///< the solver keeps points that bounce until they touch
+    Real motionTime = 0;           ///< speculativeMotion of the step [s]
+    bool bouncesAhead = false;     ///< the solver keeps points that bounce until they touch
     Real largeCacheTolerance = 0;  ///< cacheTolerance of bodies of large islands (pipeline/island_method.hpp)
 
     Real toleranceOf(IslandSize islands) const {
