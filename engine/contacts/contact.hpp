@@ -46,7 +46,7 @@ struct alignas(64) Contact {
     bool touched = false;      ///< value of `touching` at the end of the step before
     bool placed = false;       ///< the points' arms and separations are those of the manifold
     bool impacts = false;      ///< some point has `impact`
-    IslandSize islands = IslandSize::Usual;  ///< of its island: the method that solves it
+    IslandSize islands = IslandSize::Usual;  ///< the method that solves its island
     PairCoefficients<S> coefficients;
     /// Row block of each point in this step; kPatch: solved as a patch, without rows; kNullIndex: not solved.
     PerPoint<std::uint32_t> block = [] {

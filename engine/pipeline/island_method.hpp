@@ -33,12 +33,12 @@ struct IslandMethod {
     Motion<S> motion;
     int substeps = 1;            ///< equal parts of a step
     int velocityIterations = 1;  ///< most iterations of each
-    Real contactFrequency = 0;   ///< of soft contacts [Hz]
+    Real contactFrequency = 0;   ///< frequency of soft contacts [Hz]
     bool relinearizedJoints = true;
-    Real cacheTolerance = 0;  ///< of the contact cache [m]
+    Real cacheTolerance = 0;  ///< WorldDef's setting of that name [m]
 };
 
-/// Which islands of a step are large, and what is needed to pause the others.
+/// The islands of a step by size, and data to pause those that take no part.
 template <class S>
 struct IslandSort {
     struct Counts {
@@ -49,7 +49,7 @@ struct IslandSort {
     std::vector<std::uint8_t> large;
     // --- by body
     std::vector<std::uint8_t> paused;  ///< 1: takes no part in the half of the step that runs
-    std::vector<Pose<S>> startPoses;   ///< where the step began
+    std::vector<Pose<S>> startPoses;   ///< poses where the step began
 };
 
 }  // namespace rigor::engine

@@ -46,7 +46,7 @@ class JointSet {
         typename S::Vec armB = S::Vec::Zero();   ///< B's anchor from its centre when the rows were made [m]
         std::uint32_t firstRow = 0;              ///< its rows in this step follow each other
         std::uint32_t rows = 0, equalities = 0;  ///< all rows; equality rows, which come first
-        IslandSize islands = IslandSize::Usual;  ///< of its island: the method that solves it
+        IslandSize islands = IslandSize::Usual;  ///< the method that solves its island
         bool solved = false;                     ///< its rows are among those of this half of the step
         std::uint32_t block = 0;                 ///< block of the equality rows; each other row has its own
     };

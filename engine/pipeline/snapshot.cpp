@@ -108,7 +108,7 @@ void visitState(A& archive, World& world) {
     const std::size_t count = archive.size(contacts.size());
     if constexpr (!std::is_const_v<World>) contacts.reset(count);
     for (auto& contact : contacts) visitContact(archive, contact);
-    // Where no island is large, these follow from the rest of the state.
+    // These follow from the rest of the state where no island is large.
     const bool large = std::any_of(bodies.islands.begin(), bodies.islands.end(),
                                    [](IslandSize size) { return size == IslandSize::Large; });
     if (!std::is_same_v<A, HashArchive> || large) {

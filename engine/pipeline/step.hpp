@@ -22,9 +22,10 @@ struct StepState {
     int stagesDone = 0;
     int substep = 0;                 ///< index of the sub-step of the stage that runs, or has run last
     Real size = 0, substepSize = 0;  ///< [s]
-    Real lastSubstepSize = 0;        ///< that of the impulses that the rows start from [s]
+    Real lastSubstepSize = 0;        ///< sub-step of the impulses that the rows start from [s]
     // --- which islands take part (island_method.hpp)
-    IslandSize islands = IslandSize::Usual;  ///< those of the stage that runs, or has run last
+    IslandSize islands =
+        IslandSize::Usual;  ///< size of those that the stage works on that runs, or has run last
     bool anyUsual = true, anyLarge = false;  ///< islands of that size that are awake
     IslandSort<S> sort;
     // --- the problem of the sub-step
@@ -119,7 +120,7 @@ class Step {
     // --- parts of both, by the names that the stages use
     const WorldDef<S>& def_;
     StepAlgorithms<S>& algorithms_;
-    IslandMethod<S>& method_;  ///< of the islands that take part
+    IslandMethod<S>& method_;  ///< method of the islands that take part
     const Tasks& tasks_;
     BodyArrays<S>& bodies_;
     Contacts<S>& contacts_;

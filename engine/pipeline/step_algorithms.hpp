@@ -34,7 +34,7 @@ struct StepAlgorithms {
     }
 
     IslandMethod<S> usual;
-    std::optional<IslandMethod<S>> large;  ///< of large islands, where they have one of their own
+    std::optional<IslandMethod<S>> large;  ///< method of large islands, where they have one of their own
     ClonePtr<BroadPhase<S>> broadPhase;
     std::shared_ptr<const NarrowPhase<S>> narrowPhase;
     ManifoldFunction<S> makeManifold = nullptr;

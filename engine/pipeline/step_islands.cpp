@@ -16,6 +16,11 @@ namespace rigor::engine {
 /// impulses as forces: the sub-steps of the two methods differ in length.
 template <class S>
 void Step<S>::sortIslands() {
+    // Most small worlds end here.
+    const auto most = static_cast<std::uint32_t>(def_.islandContacts);
+    if (contacts_.list().size() <= most &&
+        std::find(bodies_.islands.begin(), bodies_.islands.end(), IslandSize::Large) == bodies_.islands.end())
+        return;
     IslandSort<S>& sort = state_.sort;
     const Islands& islands = world_.currentIslands();
     sort.counts.assign(islands.count(), {});
@@ -28,7 +33,6 @@ void Step<S>::sortIslands() {
         ++sort.counts[k].contacts;
         sort.counts[k].large += contact.islands == IslandSize::Large;
     }
-    const auto most = static_cast<std::uint32_t>(def_.islandContacts);
     sort.large.assign(islands.count(), 0);
     bool any = false;
     for (std::size_t k = 0; k < islands.count(); ++k) {
@@ -99,7 +103,7 @@ void Step<S>::beginIslands() {
     pauseOthers();
     // Kinematic bodies take part with both sizes, each time from where they were.
     if (state_.islands == IslandSize::Usual) return placeKinematic(0);
-    for (Contact<S>& contact : contacts_.list())  // of rows that are no more
+    for (Contact<S>& contact : contacts_.list())  // they named rows of the last step
         if (contact.islands == IslandSize::Usual) contact.block.fill(kNullIndex);
 }
 
@@ -144,7 +148,7 @@ void Step<S>::resume(std::uint32_t body) {
 
 template <class S>
 void Step<S>::endIslands() {
-    // Where kinematic bodies go does not depend on which islands there are.
+    // The way of kinematic bodies does not depend on which islands there are.
     if (!state_.anyUsual) placeKinematic(algorithms_.usual.substeps);
     world_.clock.lastSubstepSize = state_.size / Real(algorithms_.usual.substeps);
     for (std::uint32_t i = 0; i < state_.sort.paused.size(); ++i) resume(i);

@@ -29,7 +29,7 @@ namespace rigor::engine {
 template <class S>
 struct WorldClock {
     double time = 0;                       ///< the sum of all steps [s]
-    typename S::Real lastSubstepSize = 0;  ///< that of usual islands [s]; 0: there was none
+    typename S::Real lastSubstepSize = 0;  ///< length of usual islands' last sub-step [s]; 0: there was none
     std::uint64_t steps = 0;
 };
 
