@@ -14,59 +14,32 @@
 // for arguments that are not understood.
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <functional>
-#include <map>
-#include <sstream>
-#include <stdexcept>
 #include <vector>
 
+#include "engine/benchmarks/arguments.hpp"
 #include "engine/benchmarks/edges/slide.hpp"
 
 namespace rigor::engine::edges {
 namespace {
 
-using Arguments = std::map<std::string, std::string>;
-
-std::vector<std::string> split(const std::string& list) {
-    std::vector<std::string> words;
-    std::istringstream stream(list);
-    for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-    return words;
-}
-
 Arguments parse(int argc, char** argv) {
-    Arguments all{{"ground", "mesh,field,chain"},
-                  {"body", "sphere,box,capsule_along,capsule_across"},
-                  {"preset", "default,fast"},
-                  {"precision", "f64,f32"},
-                  {"angle", "0,0.4,0.785398"},
-                  {"slope", "0"},
-                  {"speed", "0.5,3,10"},
-                  {"squares", "0.1,0.3,1,3,10"},
-                  {"friction", "0,0.3"},
-                  {"jitter", "0"},
-                  {"duration", "1"},
-                  {"bound", "1e-3"},
-                  {"settings", ""},
-                  {"follow", "0"}};
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const std::size_t sign = word.find('=');
-        if (sign == std::string::npos || !all.contains(word.substr(0, sign)))
-            throw std::invalid_argument("not a known KEY=VALUE: " + word);
-        all[word.substr(0, sign)] = word.substr(sign + 1);
-    }
-    return all;
-}
-
-template <class Choice>
-Choice choose(const std::string& word, std::initializer_list<const char*> names) {
-    int place = 0;
-    for (const char* name : names) {
-        if (word == name) return static_cast<Choice>(place);
-        ++place;
-    }
-    throw std::invalid_argument("not known: " + word);
+    return parseArguments(argc, argv,
+                          {{"ground", "mesh,field,chain"},
+                           {"body", "sphere,box,capsule_along,capsule_across"},
+                           {"preset", "default,fast"},
+                           {"precision", "f64,f32"},
+                           {"angle", "0,0.4,0.785398"},
+                           {"slope", "0"},
+                           {"speed", "0.5,3,10"},
+                           {"squares", "0.1,0.3,1,3,10"},
+                           {"friction", "0,0.3"},
+                           {"jitter", "0"},
+                           {"duration", "1"},
+                           {"bound", "1e-3"},
+                           {"settings", ""},
+                           {"follow", "0"}});
 }
 
 /// A key of the arguments, and how one of its values changes a case.

@@ -11,42 +11,26 @@
 // A line for each case. The exit code is 2 for arguments that are not understood.
 #include <cstdio>
 #include <cstdlib>
-#include <map>
-#include <sstream>
-#include <stdexcept>
+#include <exception>
 #include <vector>
 
+#include "engine/benchmarks/arguments.hpp"
 #include "engine/benchmarks/impacts/heavy_scene.hpp"
 
 namespace rigor::engine::impacts {
 namespace {
 
-using Arguments = std::map<std::string, std::string>;
-
-std::vector<std::string> split(const std::string& list) {
-    std::vector<std::string> words;
-    std::istringstream stream(list);
-    for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-    return words;
-}
-
 Arguments parse(int argc, char** argv) {
-    Arguments all{{"scene", "wall,tumbler"}, {"preset", "default,fast"}, {"precision", "f32"},
-                  {"seeds", "0-0"},          {"bodies", "500"},          {"speed", ""},
-                  {"duration", "3"},         {"settings", ""},           {"follow", "0"}};
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const std::size_t sign = word.find('=');
-        if (sign == std::string::npos || !all.contains(word.substr(0, sign)))
-            throw std::invalid_argument("not a known KEY=VALUE: " + word);
-        all[word.substr(0, sign)] = word.substr(sign + 1);
-    }
-    return all;
-}
-
-bool isSecond(const std::string& word, const char* first, const char* second) {
-    if (word != first && word != second) throw std::invalid_argument("not known: " + word);
-    return word == second;
+    return parseArguments(argc, argv,
+                          {{"scene", "wall,tumbler"},
+                           {"preset", "default,fast"},
+                           {"precision", "f32"},
+                           {"seeds", "0-0"},
+                           {"bodies", "500"},
+                           {"speed", ""},
+                           {"duration", "3"},
+                           {"settings", ""},
+                           {"follow", "0"}});
 }
 
 void measure(const Arguments& arguments) {
@@ -58,9 +42,9 @@ void measure(const Arguments& arguments) {
                 for (const std::string& precision : split(arguments.at("precision"))) {
                     Case what;
                     what.seed = seed;
-                    what.scene = isSecond(scene, "wall", "tumbler") ? Scene::Tumbler : Scene::Wall;
-                    what.fast = isSecond(preset, "default", "fast");
-                    what.single = isSecond(precision, "f64", "f32");
+                    what.scene = choose<Scene>(scene, {"wall", "tumbler"});
+                    what.fast = choose<bool>(preset, {"default", "fast"});
+                    what.single = choose<bool>(precision, {"f64", "f32"});
                     what.bodies = std::stoi(arguments.at("bodies"));
                     what.duration = std::stod(arguments.at("duration"));
                     what.settings = arguments.at("settings");

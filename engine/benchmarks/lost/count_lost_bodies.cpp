@@ -15,56 +15,29 @@
 // exit code is 1 where something was lost, 2 for arguments that are not understood.
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <functional>
-#include <map>
-#include <sstream>
-#include <stdexcept>
 
+#include "engine/benchmarks/arguments.hpp"
 #include "engine/benchmarks/lost/rain.hpp"
 
 namespace rigor::engine::lost {
 namespace {
 
-using Arguments = std::map<std::string, std::string>;
-
-std::vector<std::string> split(const std::string& list) {
-    std::vector<std::string> words;
-    std::istringstream stream(list);
-    for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-    return words;
-}
-
 Arguments parse(int argc, char** argv) {
-    Arguments all{{"ground", "mesh,field,chain"},
-                  {"motion", "drop,pile,roll,slide"},
-                  {"preset", "default,fast"},
-                  {"precision", "f64,f32"},
-                  {"ccd", "none"},
-                  {"form", ""},
-                  {"squares", ""},
-                  {"seeds", "0-19"},
-                  {"seed", ""},
-                  {"bodies", "1000"},
-                  {"duration", "3"},
-                  {"follow", "-1"}};
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const std::size_t sign = word.find('=');
-        if (sign == std::string::npos || !all.contains(word.substr(0, sign)))
-            throw std::invalid_argument("not a known KEY=VALUE: " + word);
-        all[word.substr(0, sign)] = word.substr(sign + 1);
-    }
-    return all;
-}
-
-template <class Choice>
-Choice choose(const std::string& word, std::initializer_list<const char*> names) {
-    int place = 0;
-    for (const char* name : names) {
-        if (word == name) return static_cast<Choice>(place);
-        ++place;
-    }
-    throw std::invalid_argument("not known: " + word);
+    return parseArguments(argc, argv,
+                          {{"ground", "mesh,field,chain"},
+                           {"motion", "drop,pile,roll,slide"},
+                           {"preset", "default,fast"},
+                           {"precision", "f64,f32"},
+                           {"ccd", "none"},
+                           {"form", ""},
+                           {"squares", ""},
+                           {"seeds", "0-19"},
+                           {"seed", ""},
+                           {"bodies", "1000"},
+                           {"duration", "3"},
+                           {"follow", "-1"}});
 }
 
 void forSeeds(const Arguments& arguments, const std::function<void(std::uint64_t)>& use) {
