@@ -67,11 +67,12 @@ Pose<S> ContactCache<S>::relative(const Candidate<S>& candidate) const {
 
 template <class S>
 bool ContactCache<S>::hasHardlyMoved(const Candidate<S>& candidate) const {
-    if (slack(candidate) == 0) return false;
+    const Real allowed = slack(candidate);
+    if (allowed == 0) return false;
     const Real ahead = motion(candidate);
     if (ahead > 0 && candidate.contact != kNullIndex) return false;
     const Pose<S> now = relative(candidate);
-    Real most = ahead > 0 ? Real(-1) : slack(candidate);
+    Real most = ahead > 0 ? Real(-1) : allowed;
     if (candidate.contact == kNullIndex)
         most = std::max(most, candidate.separationBound - queryDistance(candidate) - ahead);
     return (now.p - candidate.relative.p).norm() +

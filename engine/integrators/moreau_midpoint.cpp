@@ -22,33 +22,23 @@
 //
 // Forces that depend on the velocity are evaluated twice, the second time with v_0 + h/2 a(q_M, v_0): order 2
 // where nothing but forces acts. What impulses change of the velocity within the step they do not see.
-#include <algorithm>
-
 #include "engine/integrators/integrator.hpp"
 #include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
-namespace {
-
-template <class S>
-void moveToNextMidpoint(BodyArrays<S>& bodies, std::span<const Velocity<S>> start,
-                        std::span<Velocity<S>> used, typename S::Real h, TurnRotation<S> turn,
-                        const Tasks& tasks) {
-    (void)start;
-    std::copy(bodies.velocity.begin(), bodies.velocity.end(), used.begin());
-    moveWith<S>(bodies, used, h, turn, tasks);
-}
-
-}  // namespace
-
 IntegratorTraits integratorMoreauMidpointTraits() {
     return {
         .scheme = FlightScheme::MoreauMidpoint, .order = 2, .forces = ForceTimes::Middle, .inBlocks = true};
 }
 
 template <class S>
+Integrator<S> integratorSymplecticEuler();
+/// Bodies move to the next midpoint as with symplectic Euler: with the new velocity.
+template <class S>
 Integrator<S> integratorMoreauMidpoint() {
-    return {.move = &moveToNextMidpoint<S>, .atMidpoint = true};
+    Integrator<S> integrator = integratorSymplecticEuler<S>();
+    integrator.atMidpoint = true;
+    return integrator;
 }
 #define RIGOR_INSTANTIATE(S) template Integrator<S> integratorMoreauMidpoint<S>();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)

@@ -53,19 +53,19 @@ const char* phaseName(Phase phase) {
     return names[static_cast<std::size_t>(phase)];
 }
 
-/// The stages of a step in their order: calls stage(islands, Phase, sub-step, the member function that does the
+/// The stages of a step in their order: calls each(islands, Phase, sub-step, the member function that does the
 /// work). Which islands there are is known once the contacts are.
 template <class S>
 template <class Visitor>
-void Step<S>::forEachStage(const WorldParts<S>& world, const StepState<S>& state, const Visitor& visit) {
-    visit(IslandSize::Usual, Phase::BroadPhase, 0, &Step::findPairs);
-    visit(IslandSize::Usual, Phase::NarrowPhase, 0, &Step::findManifolds);
+void Step<S>::forEachStage(const WorldParts<S>& world, const StepState<S>& state, const Visitor& each) {
+    each(IslandSize::Usual, Phase::BroadPhase, 0, &Step::findPairs);
+    each(IslandSize::Usual, Phase::NarrowPhase, 0, &Step::findManifolds);
     // Usual islands last: their rows can be read after the step.
     for (const IslandSize islands : {IslandSize::Large, IslandSize::Usual}) {
         if (!(islands == IslandSize::Large ? state.anyLarge : state.anyUsual)) continue;
         const IslandMethod<S>& method = world.algorithms.method(islands);
         for (int substep = 0; substep < method.substeps; ++substep) {
-            const auto stage = [&](Phase phase, Work work) { visit(islands, phase, substep, work); };
+            const auto stage = [&](Phase phase, Work work) { each(islands, phase, substep, work); };
             stage(Phase::Rows, &Step::makeRows);
             stage(Phase::Velocities, &Step::kick);
             if (!method.style.positions) {

@@ -122,14 +122,10 @@ void Step<S>::placeKinematic(int substeps) {
 template <class S>
 void Step<S>::pauseOthers() {
     IslandSort<S>& sort = state_.sort;
-    const Islands& islands = world_.currentIslands();
     sort.paused.resize(bodies_.size(), 0);
-    const bool large = state_.islands == IslandSize::Large;
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
         if (bodies_.constants[i].type != BodyType::Dynamic) continue;
-        const std::uint32_t k = islands.islandOf(i);
-        const bool takesPart = (k != kNullIndex && sort.large[k]) == large;
-        if (takesPart) {
+        if (bodies_.islands[i] == state_.islands) {
             resume(i);
         } else if (!bodies_.asleep[i]) {
             sort.paused[i] = 1;
