@@ -33,6 +33,7 @@
 // phase.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/ccd/impact.hpp"
@@ -183,6 +184,9 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
     void addCandidate(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j, Real time) {
         const std::uint32_t bi = bodyOf(world, i), bj = bodyOf(world, j);
         if (!world.contacts.filter().mayCollide(world.bodies, bi, bj)) return;
+        // What impulses do not move meets a paused body in that body's half of the step.
+        for (const auto& [paused, other] : {std::pair(bi, bj), std::pair(bj, bi)})
+            if (world.isPaused(paused) && world.bodies.invMass[other] == 0) return;
         Candidate c{bi < bj ? i : j, bi < bj ? j : i, {}};
         const MovingShape<S> a = moving(world, c.a, time), b = moving(world, c.b, time);
         const Real rest = world.h - time;
@@ -211,16 +215,21 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         else
             collideAt<S>(shapeA, shapeB, now, world.narrowPhase, manifold);
         // The rest of its island follows when the next step finds it moving.
-        for (const std::uint32_t i : {a, b}) wakeBody(bodies, i);
+        for (const std::uint32_t i : {a, b}) {
+            if (world.isPaused(i))
+                bodies.invMass[i] = Real(1) / bodies.constants[i].mass;
+            else
+                wakeBody(bodies, i);
+        }
         for (const std::uint32_t i : {a, b}) goTo(world, i, t);
         impactSolver_.begin(bodies, a, b, manifold,
                             world.contacts.materials().pair(shapes[hit.a].material, shapes[hit.b].material));
         const Real impulse = impactSolver_.solve(bodies, world.friction, world.restitutionThreshold, true);
-        for (const std::uint32_t i : {a, b}) {
-            if (bodies.invMass[i] == 0) continue;
-            bodies.velocity[i].v += (rest / world.h) * kick_[i];
-        }
+        for (const std::uint32_t i : {a, b})
+            if (moves(world, i)) bodies.velocity[i].v += (rest / world.h) * kick_[i];
         const Real held = impactSolver_.solve(bodies, world.friction, Real(0), false);
+        for (const std::uint32_t i : {a, b})
+            if (world.isPaused(i)) bodies.invMass[i] = 0;
         const bool inTime = goOn(world, a, t) & goOn(world, b, t);
         if (impulse + held > 0)
             events.push_back({bodies.id[a], bodies.id[b], world.begin + hit.impact.exact,
@@ -229,10 +238,15 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         return inTime;
     }
 
+    /// True if the body has a way that an impact changes.
+    bool moves(const MovedWorld<S>& world, std::uint32_t i) const {
+        return world.bodies.invMass[i] > 0 && !world.isPaused(i);
+    }
+
     /// The body at time t of its way, with the velocity that it has then.
     void goTo(const MovedWorld<S>& world, std::uint32_t i, Real t) {
         BodyArrays<S>& bodies = world.bodies;
-        if (bodies.invMass[i] == 0) return;
+        if (!moves(world, i)) return;
         Way& way = ways_[i];
         way.turned += (t - way.begin) * way.velocity.w;
         way.start = movedPose<S>(way.start, way.velocity, t - way.begin);
@@ -245,7 +259,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
 
     bool goOn(const MovedWorld<S>& world, std::uint32_t i, Real t) {
         BodyArrays<S>& bodies = world.bodies;
-        if (bodies.invMass[i] == 0) return true;
+        if (!moves(world, i)) return true;
         Way& way = ways_[i];
         way.changed = true;
         world.motion.resume(bodies, i, world.h - t);

@@ -6,6 +6,7 @@
 // of the bodies afterwards, or both.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -42,6 +43,11 @@ struct MovedWorld {
     Real restitutionThreshold;  ///< [m/s]
     Real h;                     ///< length of the (sub-)step [s]
     Real begin;                 ///< start time of the (sub-)step since the step began [s]
+    /// By body, or empty; 1: it belongs to islands that this half of the step does not move
+    /// (pipeline/island_method.hpp). Its inverse mass is zero then.
+    std::span<const std::uint8_t> paused = {};
+
+    bool isPaused(std::uint32_t body) const { return !paused.empty() && paused[body] != 0; }
 };
 
 template <class S>

@@ -4,6 +4,8 @@
 // One step of a world: the loop over its stages (step.cpp) and what each stage does (stages.cpp).
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/ccd/flight_impacts.hpp"
@@ -83,9 +85,11 @@ class Step {
     void joinByForces(const Islands& islands);
     void beginIslands();
     void pauseOthers();
+    std::span<const std::uint8_t> pausedBodies() const;
     void placeKinematic(int substeps);
     void resume(std::uint32_t body);
     void endIslands();
+    void sortImpacts();
 
     // --- stages
     void findPairs();

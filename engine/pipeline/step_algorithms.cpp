@@ -47,7 +47,7 @@ template <class S>
 bool allowsLargeIslands(const WorldDef<S>& def, const StepAlgorithms<S>& chosen) {
     return chosen.fault == nullptr && frictionShape(def.friction) == FrictionShape::Cone &&
            !chosen.restitution->solvesImpacts() && !def.measureResiduals &&
-           !chosen.usual.motion.isAtMidpoint() && !continuousCollisionTraits(def.continuousCollision).acts;
+           !chosen.usual.motion.isAtMidpoint();
 }
 
 template <class S>

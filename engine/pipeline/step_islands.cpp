@@ -135,6 +135,13 @@ void Step<S>::pauseOthers() {
     }
 }
 
+/// Empty where no body is paused.
+template <class S>
+std::span<const std::uint8_t> Step<S>::pausedBodies() const {
+    if (state_.anyUsual && state_.anyLarge) return state_.sort.paused;
+    return {};
+}
+
 template <class S>
 void Step<S>::resume(std::uint32_t body) {
     if (!std::exchange(state_.sort.paused[body], std::uint8_t(0))) return;
@@ -148,11 +155,22 @@ void Step<S>::endIslands() {
     if (!state_.anyUsual) placeKinematic(algorithms_.usual.substeps);
     world_.clock.lastSubstepSize = state_.size / Real(algorithms_.usual.substeps);
     for (std::uint32_t i = 0; i < state_.sort.paused.size(); ++i) resume(i);
+    if (state_.anyUsual && state_.anyLarge) sortImpacts();
 }
 
-#define RIGOR_INSTANTIATE(S)               \
-    template void Step<S>::sortIslands();  \
-    template void Step<S>::beginIslands(); \
+/// By time. They are few, and in order within each half of the step.
+template <class S>
+void Step<S>::sortImpacts() {
+    const auto earlier = [](const ImpactEvent<S>& a, const ImpactEvent<S>& b) { return a.time < b.time; };
+    const auto first = state_.impacts.begin();
+    for (auto next = first; next != state_.impacts.end(); ++next)
+        std::rotate(std::upper_bound(first, next, *next, earlier), next, next + 1);
+}
+
+#define RIGOR_INSTANTIATE(S)                                              \
+    template void Step<S>::sortIslands();                                 \
+    template void Step<S>::beginIslands();                                \
+    template std::span<const std::uint8_t> Step<S>::pausedBodies() const; \
     template void Step<S>::endIslands();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
