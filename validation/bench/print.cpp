@@ -114,7 +114,7 @@ Columns columnsOf(const std::vector<const BenchCase*>& group) {
         return std::any_of(group.begin(), group.end(), [&](const BenchCase* c) { return has(*c); });
     };
     if (columns.scene) {
-        columns.counts = {"contacts"};
+        columns.counts = {"contacts", "longest_ms"};
         if (any([](const BenchCase& c) { return countOf(c, "asleep") > 0.0; }))
             columns.counts.push_back("asleep");
         return columns;

@@ -14,6 +14,7 @@
 #include "validation/bench/meter.hpp"
 #include "validation/bench/quality.hpp"
 #include "validation/bench/scenes.hpp"
+#include "validation/bench/stopwatch.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/stepper.hpp"
 #include "validation/statistics/quantile.hpp"
@@ -65,6 +66,13 @@ class WorkMeter {
     std::map<std::string, std::vector<double>> phases_;
 };
 
+/// CPU time of the longest step [s].
+template <class Watch>
+double longest(const Watch& watch) {
+    const std::vector<double>& times = watch.samples().cpu;
+    return times.empty() ? 0.0 : *std::max_element(times.begin(), times.end());
+}
+
 class SceneCase final : public TimedWork {
   public:
     SceneCase(const PlannedBench& planned, const std::string& text)
@@ -101,7 +109,9 @@ class SceneCase final : public TimedWork {
             stepper.end();
             if (stepper.steps() % readEvery == 0) quality.sample(stepper.states());
         };
-        while (stepper.steps() < steps.warmUp) step([&] { world.step(); });
+        Stopwatch warmUp;
+        warmUp.reserve(steps.warmUp);
+        while (stepper.steps() < steps.warmUp) step([&] { warmUp.time([&] { world.step(); }); });
         while (stepper.steps() < steps.warmUp + steps.timed) {
             step([&] { watch.time([&] { world.step(); }); });
             work.count(world.counters());
@@ -120,6 +130,7 @@ class SceneCase final : public TimedWork {
         done.samples = times.wall.size();
         watch.writeAllocations(done);
         work.write(done);
+        done.counts.push_back({"longest_ms", 1e3 * std::max(longest(warmUp), longest(watch))});
         done.quality = quality.rows();
         done.stateHash = stepper.stateHash();
         if (const std::string problem = stepper.nonFinite(); !problem.empty()) {

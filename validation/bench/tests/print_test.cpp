@@ -53,7 +53,7 @@ BenchCase timed(const std::string& engine, std::int64_t threads = 1) {
         r.wall = r.cpu = 0.1234;
         r.ownMemoryKiB = 123456;
         if (round == 0) r.allocations = 1234.5;
-        r.counts = {{"contacts", 49600.25}, {"asleep", 12400.0}};
+        r.counts = {{"contacts", 49600.25}, {"asleep", 12400.0}, {"longest_ms", 1234.5}};
         r.quality = {{"max_penetration", "m", 0.001, std::nullopt, 0.005, true}};
         c.repetitions.push_back(r);
     }

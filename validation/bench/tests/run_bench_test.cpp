@@ -83,6 +83,7 @@ TEST_F(RunBench, DistinguishesSpeeds) {
         EXPECT_GT(r.peakMemoryKiB, 0);
         EXPECT_EQ(r.stateHash, fast.repetitions[0].stateHash) << "the same engine, only slower";
     }
+    EXPECT_GE(countOf(fast, "longest_ms"), 1e3 * fast.summary.cpu) << "no step is longer than the longest";
     EXPECT_EQ(slow.summary.base, fast.id);
     EXPECT_FALSE(done.finished.empty());
     EXPECT_EQ(done.environment.count("load_after"), 1u);
