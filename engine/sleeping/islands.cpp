@@ -2,35 +2,17 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/sleeping/islands.hpp"
 
-#include <algorithm>
-
 namespace rigor::engine {
 
-void Islands::begin(std::uint32_t n) {
-    parent_.resize(n);
-    for (std::uint32_t i = 0; i < n; ++i) parent_[i] = i;
-}
-
-std::uint32_t Islands::rootOf(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-}
-
-void Islands::join(std::uint32_t a, std::uint32_t b) {
-    a = rootOf(a);
-    b = rootOf(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-}
-
 void Islands::finish(std::span<const std::uint8_t> member, std::span<const BodyId> ids) {
-    const auto n = static_cast<std::uint32_t>(parent_.size());
+    const std::uint32_t n = sets_.size();
     island_.assign(n, kNullIndex);
     starts_.reserve(n + 2);
     starts_.assign(1, 0);
     // Sizes first; a root comes before its bodies, so its number is known when they need it.
     for (std::uint32_t i = 0; i < n; ++i) {
         if (!member[i]) continue;
-        const std::uint32_t root = rootOf(i);
+        const std::uint32_t root = sets_.rootOf(i);
         if (root == i) {
             island_[i] = static_cast<std::uint32_t>(starts_.size() - 1);
             starts_.push_back(0);

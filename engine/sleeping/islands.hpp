@@ -9,18 +9,18 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/disjoint_sets.hpp"
 #include "engine/core/ids.hpp"
 
 namespace rigor::engine {
 
-/// Disjoint sets by union-find [Tarjan1975]: the root of a set is its lowest index, paths are halved on the
-/// way up. begin, join per contact and joint, finish. O((bodies + joins) log bodies), no allocation once the
-/// number of bodies has stopped growing.
+/// begin, join per contact and joint, finish. O((bodies + joins) log bodies), no allocation once the number of
+/// bodies has stopped growing.
 class Islands {
   public:
     /// Bodies 0..n-1, each alone.
-    void begin(std::uint32_t n);
-    void join(std::uint32_t a, std::uint32_t b);
+    void begin(std::uint32_t n) { sets_.begin(n); }
+    void join(std::uint32_t a, std::uint32_t b) { sets_.join(a, b); }
     /// Numbers the islands of the bodies with member[i] != 0, by their lowest body.
     void finish(std::span<const std::uint8_t> member, std::span<const BodyId> ids);
 
@@ -38,9 +38,8 @@ class Islands {
     }
 
   private:
-    std::uint32_t rootOf(std::uint32_t i);
-
-    std::vector<std::uint32_t> parent_, island_;
+    DisjointSets sets_;
+    std::vector<std::uint32_t> island_;
     std::vector<std::uint32_t> starts_ = {0}, members_;
     std::vector<BodyId> ids_;
 };

@@ -59,36 +59,43 @@ typename S::Real rowDefect(const Row<S>& row, const Velocity<S>& a, const Veloci
 }  // namespace
 
 template <class S>
+typename S::Real blockResidual(const ConstraintRows<S>& constraints, const Block<S>& block,
+                               std::span<const Velocity<S>> velocities) {
+    using Real = typename S::Real;
+    using Vec3 = Eigen::Matrix<Real, 3, 1>;
+    const Row<S>* rows = constraints.rows.data() + block.first;
+    const Velocity<S>&a = velocities[block.a], &b = velocities[block.b];
+    if (block.kind == BlockKind::Joint) {
+        Real residual = 0;
+        // A row that neither body can follow has no velocity to be wrong.
+        for (int i = 0; i < block.rows; ++i)
+            if (rows[i].invK > 0) residual = std::max(residual, std::abs(rowDefect<S>(rows[i], a, b)));
+        return residual;
+    }
+    if (block.kind == BlockKind::Bounded) {
+        const Row<S>& row = rows[0];
+        if (!(row.invK > 0)) return 0;
+        const Real next = std::clamp(row.impulse - row.invK * rowDefect<S>(row, a, b), row.lower, row.upper);
+        return std::abs(row.impulse - next) / row.invK;
+    }
+    Vec3 r = Vec3::Zero(), w = Vec3::Zero();
+    for (int i = 0; i < block.rows; ++i) {
+        r[i] = rows[i].impulse;
+        w[i] = rowDefect<S>(rows[i], a, b);
+    }
+    return block.appliedNormal > 0
+               ? pressedResidual<Real>(r, w, block.friction, block.staticFriction, block.appliedNormal,
+                                       rows[0].invK)
+               : contactResidual<Real>(r, w, block.friction, block.staticFriction, rows[0].invK);
+}
+
+template <class S>
 typename S::Real naturalMapResidual(const ConstraintRows<S>& constraints,
                                     std::span<const Velocity<S>> velocities) {
     using Real = typename S::Real;
-    using Vec3 = Eigen::Matrix<Real, 3, 1>;
     Real largest = 0;
     for (const Block<S>& block : constraints.blocks) {
-        const Row<S>* rows = constraints.rows.data() + block.first;
-        const Velocity<S>&a = velocities[block.a], &b = velocities[block.b];
-        Real residual = 0;
-        if (block.kind == BlockKind::Joint) {
-            // A row that neither body can follow has no velocity to be wrong.
-            for (int i = 0; i < block.rows; ++i)
-                if (rows[i].invK > 0) residual = std::max(residual, std::abs(rowDefect<S>(rows[i], a, b)));
-        } else if (block.kind == BlockKind::Bounded) {
-            const Row<S>& row = rows[0];
-            if (!(row.invK > 0)) continue;
-            const Real next =
-                std::clamp(row.impulse - row.invK * rowDefect<S>(row, a, b), row.lower, row.upper);
-            residual = std::abs(row.impulse - next) / row.invK;
-        } else {
-            Vec3 r = Vec3::Zero(), w = Vec3::Zero();
-            for (int i = 0; i < block.rows; ++i) {
-                r[i] = rows[i].impulse;
-                w[i] = rowDefect<S>(rows[i], a, b);
-            }
-            residual = block.appliedNormal > 0
-                           ? pressedResidual<Real>(r, w, block.friction, block.staticFriction,
-                                                   block.appliedNormal, rows[0].invK)
-                           : contactResidual<Real>(r, w, block.friction, block.staticFriction, rows[0].invK);
-        }
+        const Real residual = blockResidual<S>(constraints, block, velocities);
         // A NaN is the largest of all.
         if (!(residual <= largest)) largest = residual;
     }
@@ -96,25 +103,37 @@ typename S::Real naturalMapResidual(const ConstraintRows<S>& constraints,
 }
 
 template <class S>
+typename S::Real blockResolution(const ConstraintRows<S>& constraints, const Block<S>& block,
+                                 std::span<const Velocity<S>> velocities) {
+    using Real = typename S::Real;
+    const Velocity<S>&a = velocities[block.a], &b = velocities[block.b];
+    Real largest = 0;
+    for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
+        const Row<S>& row = constraints.rows[i];
+        const Real moving = rowMotion<S>(row, a, b);
+        const Real pushed = row.invK > 0 ? std::abs(row.impulse) / row.invK : Real(0);
+        largest = std::max(largest, moving + pushed);
+    }
+    return Real(32) * std::numeric_limits<Real>::epsilon() * largest;
+}
+
+template <class S>
 typename S::Real velocityResolution(const ConstraintRows<S>& constraints,
                                     std::span<const Velocity<S>> velocities) {
     using Real = typename S::Real;
     Real largest = 0;
-    for (const Block<S>& block : constraints.blocks) {
-        const Velocity<S>&a = velocities[block.a], &b = velocities[block.b];
-        for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
-            const Row<S>& row = constraints.rows[i];
-            const Real moving = rowMotion<S>(row, a, b);
-            const Real pushed = row.invK > 0 ? std::abs(row.impulse) / row.invK : Real(0);
-            largest = std::max(largest, moving + pushed);
-        }
-    }
-    return Real(32) * std::numeric_limits<Real>::epsilon() * largest;
+    for (const Block<S>& block : constraints.blocks)
+        largest = std::max(largest, blockResolution<S>(constraints, block, velocities));
+    return largest;
 }
 
 template Eigen::Vector3f projectOnCone(const Eigen::Vector3f&, float);
 template Eigen::Vector3d projectOnCone(const Eigen::Vector3d&, double);
 #define RIGOR_INSTANTIATE(S)                                                                              \
+    template typename S::Real blockResidual(const ConstraintRows<S>&, const Block<S>&,                    \
+                                            std::span<const Velocity<S>>);                                \
+    template typename S::Real blockResolution(const ConstraintRows<S>&, const Block<S>&,                  \
+                                              std::span<const Velocity<S>>);                              \
     template typename S::Real naturalMapResidual(const ConstraintRows<S>&, std::span<const Velocity<S>>); \
     template typename S::Real velocityResolution(const ConstraintRows<S>&, std::span<const Velocity<S>>);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)

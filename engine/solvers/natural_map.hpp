@@ -22,6 +22,10 @@
 
 namespace rigor::engine {
 
+/// Residual of one block [m/s or rad/s].
+template <class S>
+typename S::Real blockResidual(const ConstraintRows<S>& constraints, const Block<S>& block,
+                               std::span<const Velocity<S>> velocities);
 /// The largest residual of all blocks [m/s or rad/s]. Cost: one pass over the rows.
 template <class S>
 typename S::Real naturalMapResidual(const ConstraintRows<S>& constraints,
@@ -31,6 +35,10 @@ typename S::Real naturalMapResidual(const ConstraintRows<S>& constraints,
 template <class R>
 Eigen::Matrix<R, 3, 1> projectOnCone(const Eigen::Matrix<R, 3, 1>& r, R mu);
 
+/// Resolution of the velocities of a block's rows, see below [m/s or rad/s].
+template <class S>
+typename S::Real blockResolution(const ConstraintRows<S>& constraints, const Block<S>& block,
+                                 std::span<const Velocity<S>> velocities);
 /// Resolution of the rows' velocities in this precision: rounding of velocities and impulses of the size of
 /// the current ones [m/s or rad/s].
 template <class S>

@@ -10,12 +10,18 @@
 //   - iterations go forwards and backwards in turn, so that weight travels down a stack as fast as up;
 //   - all joints are a group too, whose equality blocks are solved at once (joint_group.hpp); the normal goes
 //     before the tangents, so that friction has this sweep's limit;
-//   - what the iterations allowed, at least kFinishIterations, leave of a problem of at most kFinishRows rows
+//   - parts of the problem that share no body (independent_parts.hpp) are swept until each of them is solved;
+//     what becomes of a part does not depend on the others;
+//   - what the iterations allowed, at least kFinishIterations, leave of a part of at most kFinishRows rows
 //     is handed to Newton's method (newton_finish.hpp), with friction on the exact cone. Heavy boxes on light
 //     ones are then solved to rounding.
 //
-// Cost: iterations * rows * (1..kInnerSweeps). Known limit: contacts converge linearly, slowly for large mass
-// ratios, where there are more rows than that.
+// Cost: the sum over all parts of iterations * rows * (1..kInnerSweeps). Known limits: contacts converge
+// linearly, slowly for large mass ratios, where a part has more rows than that; all joints are in one part.
+#include <limits>
+#include <utility>
+
+#include "engine/solvers/independent_parts.hpp"
 #include "engine/solvers/joints/joint_group.hpp"
 #include "engine/solvers/methods/newton_finish.hpp"
 #include "engine/solvers/natural_map.hpp"
@@ -37,33 +43,86 @@ class BlockGaussSeidel final : public Solver<S> {
     void solve(const SolverInput<S>& input) override {
         applyWarmStart<S>(input);
         findGroups(input.constraints.blocks);
+        parts_.find<S>(input.constraints.blocks, groups_, input.velocities.size());
         orderGroups(input);
         joints_.begin(input.constraints);
-        for (int i = 0; i < input.iterations; ++i) {
-            input.monitor.before(input.velocities);
-            const Real change = sweeps_.template largest<Real>(i % 2 != 0, [&](std::size_t group) {
-                return solveGroup(input, groups_[group], groups_[group + 1]);
-            });
-            if (input.monitor.after(input.velocities, change)) break;
-        }
+        iterate(input);
         finish(input);
     }
 
   private:
     static bool isJoint(const Block<S>& block) { return block.kind != BlockKind::Contact; }
 
-    /// Newton's method solves what sweeps leave of a small problem.
+    /// Sweeps over all groups but those of parts that are solved.
+    void iterate(const SolverInput<S>& input) {
+        solved_.assign(parts_.count(), 0);
+        found_.resize(groups_.size());
+        for (int i = 0; i < input.iterations; ++i) {
+            input.monitor.before(input.velocities);
+            const Real change = sweeps_.template largest<Real>(i % 2 != 0, [&](std::size_t group) {
+                const bool solved = solved_[parts_.partOf(group)] != 0;
+                return found_[group] =
+                           solved ? Real(0) : solveGroup(input, groups_[group], groups_[group + 1]);
+            });
+            if (input.monitor.after(input.velocities, change)) break;
+            markSolved(input.monitor.tolerance());
+        }
+    }
+
+    void markSolved(Real tolerance) {
+        if (parts_.count() < 2) return;
+        for (std::size_t part = 0; part < parts_.count(); ++part) {
+            Real change = 0;
+            for (const std::uint32_t group : parts_.units(part)) change = std::max(change, found_[group]);
+            solved_[part] = change < tolerance;
+        }
+    }
+
+    /// Newton's method solves what sweeps leave of small parts.
     void finish(const SolverInput<S>& input) {
-        const std::size_t n = input.constraints.rows.size();
         const Real tolerance = input.monitor.tolerance();
-        if (n == 0 || n > kFinishRows || !(tolerance > 0) || input.iterations < kFinishIterations) return;
+        if (!(tolerance > 0) || input.iterations < kFinishIterations) return;
         if (input.friction != &frictionCone<Real>) return;
-        const Real residual = renewedResidual(input);
-        const Real goal = std::max(tolerance, velocityResolution<S>(input.constraints, input.velocities));
-        if (residual <= goal) return;
+        bool renewed = false;
+        Real worst = -1;
+        for (std::size_t part = 0; part < parts_.count(); ++part) {
+            if (!collectBlocks(input.constraints.blocks, part)) continue;
+            if (!std::exchange(renewed, true)) input.monitor.before(input.velocities);
+            Real residual = 0, goal = tolerance;
+            for (const std::uint32_t k : blocks_) {
+                const Block<S>& block = input.constraints.blocks[k];
+                const Real found = blockResidual<S>(input.constraints, block, input.velocities);
+                if (!(found <= residual)) residual = found;
+                goal = std::max(goal, blockResolution<S>(input.constraints, block, input.velocities));
+            }
+            if (residual <= goal) continue;
+            const Real reached = finishPart(input, residual, goal);
+            if (reached < residual) worst = std::max(worst, reached);
+        }
+        if (worst >= 0) input.monitor.after(input.velocities, worst);
+    }
+
+    /// The blocks of a part. False: it has too many rows for Newton's method.
+    bool collectBlocks(const std::vector<Block<S>>& blocks, std::size_t part) {
+        blocks_.clear();
+        std::size_t rows = 0;
+        for (const std::uint32_t group : parts_.units(part))
+            for (std::uint32_t k = groups_[group]; k < groups_[group + 1]; ++k) {
+                rows += blocks[k].rows;
+                if (rows > kFinishRows) return false;
+                blocks_.push_back(k);
+            }
+        return true;
+    }
+
+    /// Returns the residual reached.
+    Real finishPart(const SolverInput<S>& input, Real residual, Real goal) {
         newton_.forget();
-        const Real reached = newton_.attempt(input, residual, goal, kFinishSteps);
-        if (reached < residual) input.monitor.after(input.velocities, reached);
+        if (parts_.count() == 1) return newton_.attempt(input, residual, goal, kFinishSteps);
+        problem_.load(input, blocks_);
+        const Real reached = newton_.attempt(problem_.input(), residual, goal, kFinishSteps);
+        problem_.store();
+        return reached;
     }
 
     /// Consecutive contact blocks between the same two bodies form a group; so do all consecutive joints.
@@ -91,6 +150,8 @@ class BlockGaussSeidel final : public Solver<S> {
         if (isJoint(input.constraints.blocks[first]))
             return joints_.solve(input.constraints, input.velocities);
         Real found = 0;
+        const Real enough =
+            std::max(kInnerFloor * input.monitor.tolerance(), std::numeric_limits<Real>::epsilon());
         const int sweeps = last - first > 1 ? kInnerSweeps : 1;
         for (int sweep = 0; sweep < sweeps; ++sweep) {
             Real largest = 0;
@@ -102,7 +163,7 @@ class BlockGaussSeidel final : public Solver<S> {
                 largest = std::max({largest, residual, solveFriction(input, block, a, b)});
             }
             if (sweep == 0) found = largest;
-            if (largest <= kInnerTolerance * found) break;
+            if (largest <= std::max(kInnerTolerance * found, enough)) break;
         }
         return found;
     }
@@ -112,8 +173,14 @@ class BlockGaussSeidel final : public Solver<S> {
     static constexpr int kFinishIterations = 30;         ///< fewer than that are too few to sort contacts by
     static constexpr int kInnerSweeps = 10;              ///< maximum number of sweeps per solve of a group
     static constexpr Real kInnerTolerance = Real(0.01);  ///< relative to the first sweep's residual
+    static constexpr Real kInnerFloor = Real(1e-3);      ///< of the tolerance: what is solved stays as it is
     const Tasks* tasks_ = &Tasks::one();
-    std::vector<std::uint32_t> groups_;
+    std::vector<std::uint32_t> groups_;  ///< first block of each group
+    IndependentParts parts_;
+    std::vector<std::uint8_t> solved_;   ///< by part
+    std::vector<Real> found_;            ///< by group: residual before its last solve
+    std::vector<std::uint32_t> blocks_;  ///< those of a part
+    PartProblem<S> problem_;
     SweepOrder sweeps_;
     JointGroup<S> joints_;
     NewtonFinish<S> newton_;
