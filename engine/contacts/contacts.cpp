@@ -22,6 +22,12 @@ void Contacts<S>::structureChanged(bool indicesChanged) {
 }
 
 template <class S>
+void Contacts<S>::forgetImpulses(std::uint32_t body) {
+    for (Contact<S>& contact : list_)
+        if (contact.bodyA == body || contact.bodyB == body) contact.impulses.fill({});
+}
+
+template <class S>
 void Contacts<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase,
                             const ContactSearch<S>& search, const LookAhead<S>& ahead, const Tasks& tasks) {
     search_ = search;

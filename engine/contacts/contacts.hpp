@@ -53,6 +53,9 @@ class Contacts {
     /// if dense indices changed.
     void structureChanged(bool indicesChanged);
 
+    /// The contacts of this body start the next step without impulses.
+    void forgetImpulses(std::uint32_t body);
+
     /// Broad phase at the bodies' poses, and along their way ahead where `ahead` looks there.
     void findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase, const ContactSearch<S>& search,
                    const LookAhead<S>& ahead, const Tasks& tasks);

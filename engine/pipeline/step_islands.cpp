@@ -158,7 +158,7 @@ void Step<S>::endIslands() {
     if (state_.anyUsual && state_.anyLarge) sortImpacts();
 }
 
-/// By time. They are few, and in order within each half of the step.
+/// Sorts them by time. They are few, and in order within each half of the step.
 template <class S>
 void Step<S>::sortImpacts() {
     const auto earlier = [](const ImpactEvent<S>& a, const ImpactEvent<S>& b) { return a.time < b.time; };

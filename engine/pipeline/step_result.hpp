@@ -12,6 +12,7 @@
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/constraints/row.hpp"
 #include "engine/contacts/contact_events.hpp"
+#include "engine/state/world_def.hpp"
 
 namespace rigor::engine {
 
@@ -75,6 +76,15 @@ struct ContactView {
     typename S::Real separation;             ///< [m]; < 0: overlap
     typename S::Real normalImpulse;          ///< [N s], >= 0
     typename S::Vec frictionImpulse;         ///< impulse on B [N s]
+};
+
+/// A joint where its bodies are now; a null body is the world.
+template <class S>
+struct JointPlace {
+    JointId id;
+    JointType type = JointType::Ball;
+    BodyId bodyA, bodyB;
+    typename S::Vec anchorA, anchorB;  ///< world frame [m]
 };
 
 }  // namespace rigor::engine

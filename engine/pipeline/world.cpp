@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/pipeline/pose_check.hpp"
 #include "engine/pipeline/require.hpp"
 #include "engine/pipeline/shape_def.hpp"
 #include "engine/state/sleep.hpp"
@@ -164,6 +165,38 @@ void World<S>::setVelocity(BodyId body, const Vec& velocity, const Ang& angularV
 }
 
 template <class S>
+void World<S>::setPose(BodyId body, const Pose<S>& pose) {
+    require(!stepping(), "step_in_progress", "poses cannot be set between the phases of a step");
+    require(validPose<S>(pose), "body_pose", "position must be finite, orientation a unit rotation");
+    const std::uint32_t i = parts_.bodies.dense(body);
+    parts_.wakeNeighboursOf(i);
+    BodyArrays<S>& bodies = parts_.bodies.arrays();
+    const Pose<S> unit{pose.p, normalizedRot(pose.q)};
+    bodies.pose[i] = {toWorld<S>(unit, bodies.constants[i].centerOfMass), unit.q};
+    bodies.stillTime[i] = 0;
+    bodies.leaveMidpoint(i);
+    parts_.contacts.forgetImpulses(i);
+    if (bodies.constants[i].type == BodyType::Static) parts_.contacts.structureChanged(false);
+}
+
+template <class S>
+void World<S>::wake(BodyId body) {
+    parts_.wakeIslandOf(parts_.bodies.dense(body));
+}
+
+template <class S>
+void World<S>::putToSleep(BodyId body) {
+    require(!stepping(), "step_in_progress", "bodies cannot be put to sleep between the phases of a step");
+    require(parts_.algorithms.sleeping.wake != nullptr, "sleeping",
+            "a body that sleeps needs a world whose sleeping wakes it");
+    const Islands& islands = parts_.currentIslands();
+    const std::uint32_t island = islands.islandOf(parts_.bodies.dense(body));
+    if (island == kNullIndex) return;
+    for (const std::uint32_t i : islands.members(island))
+        rigor::engine::putToSleep(parts_.bodies.arrays(), i);
+}
+
+template <class S>
 void World<S>::setJointAxis(JointId joint, int axis, const JointAxis<Real>& control) {
     require(!stepping(), "step_in_progress", "joints cannot change between the phases of a step");
     parts_.joints.setAxis(joint, axis, control);
@@ -187,6 +220,18 @@ void World<S>::setJointTarget(JointId joint, int axis, Real target) {
 }
 
 // --- reading
+
+template <class S>
+void World<S>::readJoints(std::vector<JointPlace<S>>& out) const {
+    const BodyArrays<S>& bodies = parts_.bodies.arrays();
+    out.clear();
+    for (const auto& record : parts_.joints.records()) {
+        const Joint<S>& joint = record.joint;
+        out.push_back({joint.id, joint.type, bodies.id[joint.a], bodies.id[joint.b],
+                       toWorld<S>(bodies.pose[joint.a], joint.anchorA),
+                       toWorld<S>(bodies.pose[joint.b], joint.anchorB)});
+    }
+}
 
 template <class S>
 void World<S>::readContacts(std::vector<ContactView<S>>& out) const {

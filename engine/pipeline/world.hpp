@@ -97,6 +97,10 @@ class World {
 
     // --- reading
     std::size_t bodyCount() const { return parts_.bodies.size() - 1; }
+    /// All bodies. Changed by adding and removing them.
+    std::span<const BodyId> bodies() const { return std::span(parts_.bodies.arrays().id).subspan(1); }
+    /// Replaces `out` by all joints, in the order in which they were added.
+    void readJoints(std::vector<JointPlace<S>>& out) const;
     bool contains(BodyId body) const { return parts_.bodies.ids().contains(body); }
     bool contains(ForceId force) const { return parts_.forces.contains(force); }
     double time() const { return parts_.clock.time; }                     ///< the sum of all steps [s]
@@ -108,6 +112,14 @@ class World {
     Ang angularVelocity(BodyId body) const { return parts_.bodies.velocity(body).w; }
     const BodyConstants<S>& constants(BodyId body) const { return parts_.bodies.constants(body); }
     void setVelocity(BodyId body, const Vec& velocity, const Ang& angularVelocity);
+    /// Puts a body elsewhere, of any type, without a way between: its velocity stays, its contacts begin anew, and
+    /// what it touched or hung on wakes. Joints pull it back. Throws EngineError "body_pose" for poses that are
+    /// not finite or no rotation, "step_in_progress" between the phases of a step.
+    void setPose(BodyId body, const Pose<S>& pose);
+    /// Wakes the island of a body, or puts it to sleep at once; a static or kinematic body has none. Throws
+    /// EngineError "sleeping" where the world has no sleeping that would wake it.
+    void wake(BodyId body);
+    void putToSleep(BodyId body);
     const PairCoefficients<S>& pairCoefficients(std::uint32_t a, std::uint32_t b) const;
     const WorldDef<S>& def() const { return parts_.def; }
     /// Sub-steps of a step, and most iterations of each: the settings, or the solver's own.
