@@ -52,6 +52,7 @@ void addReport(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addRecord(CLI::App& app, Action& action);
 void addImport(CLI::App& app, Action& action);
+void addDraw(CLI::App& app, Action& action);
 void addFit(CLI::App& app, Action& action);
 void addView(CLI::App& app, Action& action);
 

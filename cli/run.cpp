@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include <sys/wait.h>
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <cmath>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iostream>
@@ -13,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/guarded.hpp"
 #include "reports/model/view_model.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/results/values.hpp"
@@ -237,63 +235,6 @@ int runHere(const RunArguments& a) {
     }
 }
 
-/// Libraries may abort: the run happens in a child, so that a crash ends in a sentence and an exit code.
-int runGuarded(const RunArguments& arguments, const std::function<int()>& work) {
-    std::fflush(nullptr);
-    int finished[2];  // the child writes a byte when it got to its end: a library may call exit()
-    if (pipe(finished) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
-    const pid_t child = fork();
-    if (child < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
-    if (child == 0) {
-        int code = kInternal;
-        try {
-            code = work();
-        } catch (const scenario::LoadError& error) {
-            printProblems(error, false);
-            code = kBadInput;
-        } catch (const adapter::Unsupported& error) {
-            std::fprintf(stderr, "rigor: unsupported: %s\n", error.what());
-            code = kUnsupported;
-        } catch (const std::logic_error& error) {
-            std::fprintf(stderr, "rigor: %s\n", error.what());
-            code = kBadInput;
-        } catch (const adapter::BadInput& error) {
-            std::fprintf(stderr, "rigor: %s\n", error.what());
-            code = kBadInput;
-        } catch (const std::exception& error) {
-            std::fprintf(stderr, "rigor: internal error: %s\n", error.what());
-        }
-        std::cout.flush();
-        std::fflush(nullptr);
-        const bool reported = write(finished[1], "x", 1) == 1;
-        _exit(reported ? code : kInternal);
-    }
-    close(finished[1]);
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    char byte = 0;
-    const bool reachedEnd = read(finished[0], &byte, 1) == 1;
-    close(finished[0]);
-    if (WIFEXITED(status) && reachedEnd) return WEXITSTATUS(status);
-    if (WIFEXITED(status)) {
-        std::fprintf(stderr, "rigor: %s crashed in %s: it ended the process with exit code %d\n",
-                     arguments.engine.c_str(), arguments.scenario.c_str(), WEXITSTATUS(status));
-        return kCrashed;
-    }
-    const int signal = WTERMSIG(status);
-    if (signal == SIGINT) return kInterrupted;
-    if (signal == SIGALRM) {
-        const auto why = validation::referenceFailure(true, status, arguments.referenceLimits);
-        std::fprintf(stderr, "rigor: %s: %s\n", arguments.scenario.c_str(), why.text().c_str());
-        return kNoReference;
-    }
-    if (signal == SIGPIPE) return 128 + SIGPIPE;  // the reader of the output has closed the pipe
-    std::fprintf(stderr, "rigor: %s crashed in %s: %s\n", arguments.engine.c_str(),
-                 arguments.scenario.c_str(), strsignal(signal));
-    return kCrashed;
-}
-
 }  // namespace
 
 void addRun(CLI::App& app, Action& action) {
@@ -321,7 +262,11 @@ void addRun(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, 1000));
     addReferenceLimit(*command, a->referenceLimits);
     command->add_flag("--json", a->json, "Print the result as JSON");
-    command->callback([a, &action] { action = [a] { return runGuarded(*a, [a] { return runHere(*a); }); }; });
+    command->callback([a, &action] {
+        action = [a] {
+            return runGuarded(a->engine, a->scenario, a->referenceLimits, [a] { return runHere(*a); });
+        };
+    });
 }
 
 }  // namespace rigor::cli

@@ -43,7 +43,7 @@ struct MovedWorld {
     Real restitutionThreshold;  ///< [m/s]
     Real h;                     ///< length of the (sub-)step [s]
     Real begin;                 ///< start time of the (sub-)step since the step began [s]
-    /// By body, or empty; 1: it belongs to islands that this half of the step does not move
+    /// Flag of each body, or empty; 1: it belongs to islands that this half of the step does not move
     /// (pipeline/island_method.hpp). Its inverse mass is zero then.
     std::span<const std::uint8_t> paused = {};
 

@@ -32,8 +32,8 @@ class IndependentParts {
     }
 
   private:
-    DisjointSets sets_;                  ///< of bodies
-    std::vector<std::uint32_t> part_;    ///< by unit
+    DisjointSets sets_;                  ///< sets of bodies
+    std::vector<std::uint32_t> part_;    ///< part of each unit
     std::vector<std::uint32_t> ofRoot_;  ///< part of each root
     std::vector<std::uint32_t> starts_, units_;
 };
@@ -61,7 +61,8 @@ class PartProblem final : private IterationMonitor<S> {
     std::vector<Velocity<S>> velocities_;
     bool hasJoints_ = false;
     std::vector<std::uint32_t> rowOf_, bodyOf_;  ///< row and body of the whole problem
-    std::vector<std::uint32_t> localOf_;  ///< by body of the whole problem; kNullIndex: not in the part
+    std::vector<std::uint32_t>
+        localOf_;  ///< index of each body of the whole problem; kNullIndex: not in the part
 };
 
 }  // namespace rigor::engine

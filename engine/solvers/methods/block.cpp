@@ -173,13 +173,14 @@ class BlockGaussSeidel final : public Solver<S> {
     static constexpr int kFinishIterations = 30;         ///< fewer than that are too few to sort contacts by
     static constexpr int kInnerSweeps = 10;              ///< maximum number of sweeps per solve of a group
     static constexpr Real kInnerTolerance = Real(0.01);  ///< relative to the first sweep's residual
-    static constexpr Real kInnerFloor = Real(1e-3);      ///< of the tolerance: what is solved stays as it is
+    static constexpr Real kInnerFloor =
+        Real(1e-3);  ///< fraction of the tolerance below which a group stays as it is
     const Tasks* tasks_ = &Tasks::one();
     std::vector<std::uint32_t> groups_;  ///< first block of each group
     IndependentParts parts_;
-    std::vector<std::uint8_t> solved_;   ///< by part
-    std::vector<Real> found_;            ///< by group: residual before its last solve
-    std::vector<std::uint32_t> blocks_;  ///< those of a part
+    std::vector<std::uint8_t> solved_;   ///< flag of each part
+    std::vector<Real> found_;            ///< residual of each group before its last solve
+    std::vector<std::uint32_t> blocks_;  ///< blocks of a part
     PartProblem<S> problem_;
     SweepOrder sweeps_;
     JointGroup<S> joints_;

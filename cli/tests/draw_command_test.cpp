@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// `rigor draw` as a user calls it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "cli/tests/program.hpp"
+
+namespace rigor::cli_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::size_t count(const std::string& text, const std::string& what) {
+    std::size_t found = 0;
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+    return found;
+}
+
+TEST(DrawCommand, DrawsShapesAndContactsOfAnyEngine) {
+    const fs::path file = fs::path(RIGOR_BINARY_DIR) / ("drawn-" + std::to_string(getpid()) + ".svg");
+    for (const std::string engine : {"rigor", "box2d", "bullet"}) {
+        const auto drawn = rigor("draw box_stack_2d --at 0.5 --engine " + engine +
+                                 " --show contact,outline --out " + file.string());
+        ASSERT_EQ(drawn.code, 0) << drawn.out;
+        EXPECT_THAT(drawn.out, HasSubstr("box_stack_2d at 0.5 s"));
+        std::ostringstream text;
+        text << std::ifstream(file).rdbuf();
+        EXPECT_THAT(text.str(), testing::StartsWith("<svg "));
+        EXPECT_GE(count(text.str(), "class=\"outline\""), 40u) << "ten boxes of four edges";
+        EXPECT_EQ(count(text.str(), "<circle "), 20u) << "two points between each two boxes, by " << engine;
+        EXPECT_EQ(count(text.str(), "class=\"normal\""), 0u);
+    }
+    fs::remove(file);
+}
+
+TEST(DrawCommand, ShowsWhereTheBodiesAreAtThatTime) {
+    const auto begin = rigor("draw free_flight --at 0 --show outline", false);
+    const auto later = rigor("draw free_flight --at 0.5 --show outline,velocity", false);
+    ASSERT_EQ(begin.code, 0) << begin.out;
+    ASSERT_EQ(later.code, 0) << later.out;
+    EXPECT_NE(begin.out, later.out);
+    EXPECT_GE(count(later.out, "class=\"velocity\""), 1u);
+    EXPECT_EQ(count(begin.out, "class=\"outline\""), count(later.out, "class=\"outline\""));
+}
+
+TEST(DrawCommand, SaysWhatItDoesNotTake) {
+    const auto kind = rigor("draw box_stack_2d --show outlines");
+    EXPECT_EQ(kind.code, 2);
+    EXPECT_THAT(kind.out, HasSubstr("did you mean 'outline'"));
+    const auto late = rigor("draw box_stack_2d --at 1e6");
+    EXPECT_EQ(late.code, 2);
+    EXPECT_THAT(late.out, HasSubstr("--at"));
+    const auto missing = rigor("draw box_stack_2d --engine fcl");
+    EXPECT_EQ(missing.code, 4) << missing.out;
+    const auto nowhere = rigor("draw box_stack_2d --out /nowhere/at/all.svg");
+    EXPECT_EQ(nowhere.code, 2);
+    EXPECT_THAT(nowhere.out, HasSubstr("No such file"));
+}
+
+}  // namespace
+}  // namespace rigor::cli_test
