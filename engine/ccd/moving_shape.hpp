@@ -7,19 +7,11 @@
 
 #include "engine/math/rotation.hpp"
 #include "engine/math/space.hpp"
+#include "engine/shapes/inner_sphere.hpp"
 #include "engine/shapes/shape.hpp"
 #include "engine/state/body_arrays.hpp"
 
 namespace rigor::engine {
-
-/// A sphere of this radius fits into the shape (rounded down where there is no closed form) [m]; the largest
-/// number there is for half-spaces, which nothing passes through; 0 for surfaces, which have no thickness.
-template <class S>
-typename S::Real inscribedRadiusOf(const Shape<S>& shape);
-
-/// The centre of such a sphere, or near it, in the frame of the shape [m]; zero for half-spaces and surfaces.
-template <class S>
-typename S::Vec middleOf(const Shape<S>& shape);
 
 /// Bounding radius of the shape's core about a point at `local.p` beyond its frame's origin, i.e. about the
 /// body's centre of mass [m]. The core is the shape without its rounding radius: the turning of a sphere

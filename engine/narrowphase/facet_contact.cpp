@@ -11,7 +11,8 @@
 //   2. A piece whose border is near takes part as far as the rules of surface_piece.hpp find it along its
 //      normal. What they find along another normal (at the border of a table, over a ridge) is a contact of
 //      that piece alone.
-//   3. Of more points than a manifold has room for those are kept that span it (reducePoints).
+//   3. Where no piece has a contact, the nearest one's with the shape's middle (step 4 of surface_piece.hpp).
+//   4. Of more points than a manifold has room for those are kept that span it (reducePoints).
 // So a box that slides over small triangles has the four points of its corners, which persist; friction acts
 // at the same centers of pressure as on a plane, and the cost for the solver is that of a plane. Without it
 // friction had the wrong center whenever a triangle began or ended under the shape, which turned sliding
@@ -98,6 +99,23 @@ class FacetPoints {
     int count_ = 0;
 };
 
+/// The contact of a shape's middle with the piece that is nearest to it.
+template <class S, class Data>
+void collideMiddleOf(const Data& data, std::uint32_t facet, const Aabb<S>& box, bool ridge,
+                     const Placed<S>& placed, Manifold<S>& out) {
+    typename S::Real deepest = 0;
+    data.query(box, [&](std::uint32_t index) {
+        if (data.facets.of(index) != facet) return;
+        Manifold<S> found;
+        const typename S::Real depth = collideMiddle<S>(data, index, placed, found);
+        if (depth <= deepest || (ridge && !facesItsSide<S>(data, index, placed.middle()))) return;
+        deepest = depth;
+        out.count = 1;
+        out.normal = found.normal;
+        out.points[0] = found.points[0];
+    });
+}
+
 /// The shape over a facet: the plane is that of the first of its pieces that is near.
 template <class S, class Data>
 struct OverFacet {
@@ -110,7 +128,7 @@ struct OverFacet {
     void take(const Data& data, std::uint32_t index, const Placed<S>& placed) {
         const Vec n = pieceNormal<Real>(data.piece(index)), corner = data.point(data.corners(index)[0]);
         const Real top = placed.reach(n) - n.dot(corner), bottom = -placed.reach(-n) - n.dot(corner);
-        under = top + bottom < 0;
+        under = placed.isUnder(n, corner);
         const bool front = Data::kSolidBelow || !under;
         normal = front ? n : Vec(-n);
         lowest = front ? bottom : -top;
@@ -128,6 +146,7 @@ void collidePieces(Collide collide, const Data& data, std::uint32_t facet, bool 
     const Aabb<S> box = boxOnSurface<S>(Xs, convex, Xc, speculative);
     OverFacet<S, Data> over;
     FacetPoints<S> points;
+    bool any = false;
     data.query(box, [&](std::uint32_t index) {
         if (data.facets.of(index) != facet) return;
         if (over.normal.isZero(0)) over.take(data, index, placed);
@@ -136,9 +155,10 @@ void collidePieces(Collide collide, const Data& data, std::uint32_t facet, bool 
         const bool pushedUp = Data::kSolidBelow && over.under;
         if (!pushedUp && isBorderNear<S>(data, index, box)) {
             Manifold<S> own;
-            if (collideWith<S>(collide, data, index, false, Xs, convex, Xc, speculative, own) !=
-                PieceContact::Along)
-                return;
+            const PieceContact found =
+                collideWith<S>(collide, data, index, false, Xs, convex, Xc, speculative, own);
+            any = any || found == PieceContact::OwnNormal;
+            if (found != PieceContact::Along) return;
         }
         const auto piece = data.piece(index);
         const V n = pieceNormal<R>(piece);
@@ -153,6 +173,7 @@ void collidePieces(Collide collide, const Data& data, std::uint32_t facet, bool 
     });
     out.normal = over.normal;
     points.emit(out);
+    if (out.count == 0 && !any) collideMiddleOf<S>(data, facet, box, ridge, placed, out);
     toWorldFrame<S>(out, Xs);
     remember(out);
 }
@@ -174,6 +195,12 @@ void collideFacet(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, st
         const PieceContact found =
             collideWith<S>(collide, data, piece, ridge, Xsurface, convex, Xconvex, speculative, out);
         if (name != piece && found != PieceContact::OwnNormal) out.count = 0;
+        if (name != piece || out.count > 0) return;
+        const Placed<S> placed{convex, relativePose<S>(Xsurface, Xconvex)};
+        if (ridge && !facesItsSide<S>(data, piece, placed.middle())) return;
+        if (collideMiddle<S>(data, piece, placed, out) == 0) return;
+        toWorldFrame<S>(out, Xsurface);
+        remember(out);
     });
 }
 

@@ -14,6 +14,9 @@
 //      behind the plane of contact,  n . (w - v) <= 0  for the vertices w beside the piece's touching side,
 //      or around its touching corner: only there n is a normal of the surface.
 //   3. Else the contact along m, if any: what is left belongs to a neighbour.
+//   4. If that leaves nothing, and the piece is in the way of a sphere around the shape's middle that the shape
+//      contains, the contact with that sphere. A plate that stands in a gully has no corner over either side,
+//      and its shortest way out is into the other side.
 // Of a shape that is deep the supporting feature is one corner, which alone would turn the shape rather than
 // lift it: its other low points over the piece join the contact along m. Nothing of that is taken that is
 // beyond the piece's plane but not beyond the surface, as what reaches under the border of a table is; and
@@ -32,6 +35,7 @@
 #include "engine/narrowphase/detail.hpp"
 #include "engine/narrowphase/pairs.hpp"
 #include "engine/narrowphase/surface_side.hpp"
+#include "engine/shapes/inner_sphere.hpp"
 
 namespace rigor::engine {
 
@@ -82,9 +86,11 @@ struct Placed {
     typename S::Vec furthest(const typename S::Vec& n) const {
         return toWorld<S>(X, support<S>(convex, rotateInverse<typename S::Real>(X.q, n)));
     }
-    typename S::Vec middle() const {
-        const auto* hull = std::get_if<Hull<S>>(&convex);
-        return hull == nullptr ? X.p : toWorld<S>(X, typename S::Vec(hull->data->center));
+    typename S::Vec middle() const { return toWorld<S>(X, middleOf<S>(convex)); }
+    /// True where the middle is behind the plane with the normal n through `on`. Whatever else decides about sides
+    /// (surface_side.hpp, contacts/surface_sides.hpp) goes by the middle as well.
+    bool isUnder(const typename S::Vec& n, const typename S::Vec& on) const {
+        return n.dot(middle() - on) < 0;
     }
 };
 
@@ -184,7 +190,7 @@ enum class PieceContact : std::uint8_t {
 template <class R>
 inline constexpr R kOwnNormal = R(1) - R(1e-6);
 
-/// Steps 1 to 3. `collide`: a narrow phase.
+/// Steps 1 to 3; 4 is left to the caller. `collide`: a narrow phase.
 template <class S, class Collide, class Data>
 PieceContact collideWith(Collide collide, const Data& data, std::uint32_t index, bool ridge,
                          const Pose<S>& Xs, const Shape<S>& convex, const Pose<S>& Xc,
@@ -195,7 +201,7 @@ PieceContact collideWith(Collide collide, const Data& data, std::uint32_t index,
     const Placed<S> placed{convex, relativePose<S>(Xs, Xc)};
     const V n = pieceNormal<R>(piece), corner = data.point(data.corners(index)[0]);
     const R top = placed.reach(n) - n.dot(corner), bottom = -placed.reach(-n) - n.dot(corner);
-    const bool under = top + bottom < 0;
+    const bool under = placed.isUnder(n, corner);
     const bool front = Data::kSolidBelow || !under;
     const R s = front ? bottom : -top;
     if (s > speculative) return PieceContact::None;
@@ -223,6 +229,24 @@ PieceContact collideWith(Collide collide, const Data& data, std::uint32_t index,
     toWorldFrame<S>(out, Xs);
     remember(out);
     return PieceContact::Along;
+}
+
+/// Step 4. `out` in the frame of the surface. Returns how deep it is, 0: no contact.
+template <class S, class Data>
+typename S::Real collideMiddle(const Data& data, std::uint32_t index, const Placed<S>& placed,
+                               Manifold<S>& out) {
+    using R = typename S::Real;
+    using V = typename S::Vec;
+    const V middle = placed.middle(), on = nearestOn<R>(data.piece(index), middle);
+    const R radius = inscribedRadiusOf<S>(placed.convex), distance = (middle - on).norm();
+    if (!(distance > 0 && distance < (1 - kDeep<R>)*radius)) return 0;
+    if (Data::kSolidBelow && placed.isUnder(pieceNormal<R>(data.piece(index)), on)) return 0;
+    const V n = (middle - on) / distance;
+    if (!isSurfaceNormal<S>(data, index, n)) return 0;
+    out.count = 0;
+    out.normal = n;
+    addPoint<S>(out, on, middle - radius * n, distance - radius, crossingFeature(index, 0));
+    return radius - distance;
 }
 
 /// True where a side (end) of the piece that is no inner side of its facet is in reach of the box.

@@ -7,6 +7,7 @@
 #include "engine/ccd/moving_shape.hpp"
 #include "engine/pipeline/pose_check.hpp"
 #include "engine/pipeline/require.hpp"
+#include "engine/shapes/inner_sphere.hpp"
 #include "engine/shapes/surface.hpp"
 
 namespace rigor::engine {

@@ -8,8 +8,8 @@
 #include <cstdio>
 
 #include "engine/benchmarks/lost/ground.hpp"
-#include "engine/ccd/moving_shape.hpp"
 #include "engine/pipeline/world.hpp"
+#include "engine/shapes/inner_sphere.hpp"
 #include "engine/state/prefer_speed.hpp"
 
 namespace rigor::engine::lost {
