@@ -140,7 +140,7 @@ void Candidates<S>::merge(const BodyArrays<S>& bodies, const ShapeSet<S>& shapes
         const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
         findPieces(
             shapes, surface, other,
-            speculativeDistance + std::max(shapes.tolerance(a), shapes.tolerance(b)) + shapes.motion(other));
+            speculativeDistance + std::max(shapes.tolerance(a), shapes.tolerance(b)) + shapes.motion(a, b));
         const typename S::Vec middle = toWorld<S>(shapes.pose(other), shapes[other].middle);
         const bool ridge =
             facesDiffer<S>(shapes[surface].shape, pieces_, toLocal<S>(shapes.pose(surface), middle));

@@ -52,9 +52,7 @@ class ContactCache {
         return speculativeDistance_ + slack(candidate);
     }
     /// Addition to the query distance of shapes that move far in the step [m].
-    Real motion(const Candidate<S>& candidate) const {
-        return shapes_.motion(candidate.a) + shapes_.motion(candidate.b);
-    }
+    Real motion(const Candidate<S>& candidate) const { return shapes_.motion(candidate.a, candidate.b); }
     /// The cached result is what the narrow phase would find, within the bounds above.
     bool isValid(const Candidate<S>& candidate) const {
         return candidate.cached && hasHardlyMoved(candidate);

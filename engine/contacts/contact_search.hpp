@@ -13,10 +13,13 @@ template <class S>
 struct ContactSearch {
     using Real = typename S::Real;
     Real speculativeDistance = 0, cacheTolerance = 0, boxMargin = 0;
-    Real motionTime = 0;           ///< speculativeMotion of the step [s]
-    bool bouncesAhead = false;     ///< the solver keeps points that bounce until they touch
+    Real motionTime = 0;        ///< speculativeMotion of the step [s]
+    Real largeMotionTime = 0;   ///< the same where a body of a large island takes part; 0: there is none [s]
+    bool bouncesAhead = false;  ///< the solver keeps points that bounce until they touch
     Real largeCacheTolerance = 0;  ///< cacheTolerance of bodies of large islands (pipeline/island_method.hpp)
 
+    /// Time in which the motion of shapes is looked ahead, of all or of some pairs [s].
+    Real longestMotionTime() const { return motionTime > 0 ? motionTime : largeMotionTime; }
     Real toleranceOf(IslandSize islands) const {
         return islands == IslandSize::Large ? largeCacheTolerance : cacheTolerance;
     }

@@ -32,7 +32,7 @@ struct ContactUpdate {
     const LookAhead<S>& ahead;
     ContactCache<S> cache;
     bool coefficientsHold;        ///< coefficients of persisting contacts are those of their materials
-    typename S::Real motionTime;  ///< ContactSearch::motionTime [s]
+    typename S::Real motionTime;  ///< ContactSearch::longestMotionTime() [s]
     bool bouncesAhead;            ///< ContactSearch::bouncesAhead
 
     /// Updates a contact of the last step. False: it has ended.

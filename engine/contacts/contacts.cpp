@@ -50,7 +50,7 @@ void Contacts<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S
                                   ahead,
                                   ContactCache<S>(shapes_, search_.speculativeDistance),
                                   coefficientsOf_ == materials_.revision(),
-                                  search_.motionTime,
+                                  search_.longestMotionTime(),
                                   search_.bouncesAhead};
     finder_.run(update, pairs_.exact(), candidates_, list_, tasks);
     coefficientsOf_ = materials_.revision();

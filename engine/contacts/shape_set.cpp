@@ -54,6 +54,8 @@ void ShapeSet<S>::update(const BodyArrays<S>& bodies, const ContactSearch<S>& se
     boxes_.resize(n);
     movable_.resize(n);
     motions_.resize(n);
+    ahead_.resize(n);
+    const Real motionTime = search.longestMotionTime();
     tolerance_.resize(n, search.cacheTolerance);
     tasks.forEach(n, kShapeGrain, [&](std::size_t i) {
         const ShapeRecord<S>& record = records_[i];
@@ -69,8 +71,9 @@ void ShapeSet<S>::update(const BodyArrays<S>& bodies, const ContactSearch<S>& se
             boxes_[i].max += grown;
         }
         motions_[i] = 0;
-        if (!isStatic && search.motionTime > 0)
-            growByMotion(bodies, i, search.speculativeDistance + tolerance_[i], search.motionTime);
+        ahead_[i] = search.motionTime > 0 || bodies.islands[record.body] == IslandSize::Large;
+        if (!isStatic && motionTime > 0)
+            growByMotion(bodies, i, search.speculativeDistance + tolerance_[i], motionTime);
         if (!isStatic && ahead.looksAhead()) ahead.growBox(static_cast<std::uint32_t>(i), boxes_[i]);
     });
     staticsValid_ = true;

@@ -52,9 +52,11 @@ class ShapeSet {
     /// Cache tolerance of a shape's contacts in this step; that of two shapes is the larger [m].
     Real tolerance(std::size_t i) const { return tolerance_[i]; }
     const std::vector<std::uint8_t>& movable() const { return movable_; }
-    /// Distance along the motion of the shape in which contacts are looked for, up to its size; 0 if it is slow
-    /// [m].
-    Real motion(std::size_t i) const { return motions_[i]; }
+    /// Distance along the motion of two shapes in which their contacts are looked for, up to their size; 0 if they
+    /// are slow, or not looked ahead [m].
+    Real motion(std::size_t i, std::size_t k) const {
+        return ahead_[i] || ahead_[k] ? motions_[i] + motions_[k] : Real(0);
+    }
     /// Indices of the shapes that are chains, meshes or height fields.
     const std::vector<std::uint32_t>& surfaces() const { return surfaces_; }
 
@@ -69,7 +71,8 @@ class ShapeSet {
     std::vector<Real> tolerance_;
     std::vector<std::uint8_t> movable_;
     std::vector<Real> motions_;
-    bool staticsValid_ = false;  ///< poses and boxes of static bodies are computed
+    std::vector<std::uint8_t> ahead_;  ///< contacts of the shape are looked for ahead
+    bool staticsValid_ = false;        ///< poses and boxes of static bodies are computed
 };
 
 }  // namespace rigor::engine

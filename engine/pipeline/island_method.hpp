@@ -35,7 +35,8 @@ struct IslandMethod {
     int velocityIterations = 1;  ///< most iterations of each
     Real contactFrequency = 0;   ///< frequency of soft contacts [Hz]
     bool relinearizedJoints = true;
-    Real cacheTolerance = 0;  ///< WorldDef's setting of that name [m]
+    Real cacheTolerance = 0;     ///< WorldDef's setting of that name [m]
+    Real speculativeMotion = 0;  ///< the same
 };
 
 /// The islands of a step by size, and data to pause those that take no part.

@@ -154,9 +154,13 @@ void Step<S>::findPairs() {
     BroadPhase<S>& broadPhase = *algorithms_.broadPhase;
     ccd.predict(bodies_, contacts_.shapes().records(), def_.gravity, state_.size);
     ContactSearch<S> search{def_.speculativeDistance, def_.cacheTolerance, def_.boxMargin,
-                            def_.speculativeMotion * state_.size, contactModel_.bouncesAhead()};
+                            def_.speculativeMotion * state_.size};
+    search.bouncesAhead = contactModel_.bouncesAhead();
     if (algorithms_.large) {
         search.largeCacheTolerance = algorithms_.large->cacheTolerance;
+        if (std::find(bodies_.islands.begin(), bodies_.islands.end(), IslandSize::Large) !=
+            bodies_.islands.end())
+            search.largeMotionTime = algorithms_.large->speculativeMotion * state_.size;
         search.bouncesAhead = search.bouncesAhead && algorithms_.large->contactModel->bouncesAhead();
     }
     if (algorithms_.fault != nullptr)

@@ -66,6 +66,7 @@ IslandMethod<S> makeMethod(const WorldDef<S>& def, const std::string& solver) {
     method.contactFrequency = def.contactFrequency;
     method.relinearizedJoints = def.relinearizedJoints;
     method.cacheTolerance = def.cacheTolerance;
+    method.speculativeMotion = def.speculativeMotion;
     if (movesInBlocks<S>(def, solver)) method.motion.moveInBlocks(rotation.gyroscopic);
     return method;
 }
