@@ -120,6 +120,44 @@ Plane fieldPlane(const Pose& pose, const HeightField& field, const std::string& 
     return plane;
 }
 
+/// A chain that is one straight floor, its vertices in order along local x.
+Plane chainPlane(const Pose& pose, const Chain& chain, const std::string& subject) {
+    const Vec3 &a = chain.vertices.front(), &b = chain.vertices.back();
+    const double way = b.x < a.x ? -1.0 : 1.0;
+    for (std::size_t i = 0; i < chain.vertices.size(); ++i)
+        require(chain.vertices[i].y == a.y &&
+                    (i == 0 || way * (chain.vertices[i].x - chain.vertices[i - 1].x) > 0.0),
+                subject + " is a chain that is not straight along its x");
+    Plane plane = facePlane(pose, {0, 1, 0}, a.y);
+    const Vec3 x = rotate(pose.orientation, {1, 0, 0});
+    plane.edges.push_back({x, dot(x, pose * (0.5 * (a + b))), 0.5 * std::abs(b.x - a.x)});
+    return plane;
+}
+
+/// A mesh that is one flat floor: its triangles have the area of the rectangle around it.
+Plane meshPlane(const Pose& pose, const TriangleMesh& mesh, const std::string& subject) {
+    Vec3 low = mesh.vertices.front(), high = low;
+    for (const Vec3& v : mesh.vertices) {
+        require(v.y == low.y, subject + " is a mesh that is not flat across its y");
+        low = {std::min(low.x, v.x), low.y, std::min(low.z, v.z)};
+        high = {std::max(high.x, v.x), low.y, std::max(high.z, v.z)};
+    }
+    double area = 0.0;
+    for (const std::array<int, 3>& t : mesh.triangles) {
+        const Vec3& a = mesh.vertices[t[0]];
+        area += 0.5 * norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
+    }
+    const double whole = (high.x - low.x) * (high.z - low.z);
+    require(std::abs(area - whole) <= 1e-9 * whole,
+            subject + " is a mesh that is no rectangle along its x and z");
+    Plane plane = facePlane(pose, {0, 1, 0}, low.y);
+    const Vec3 center = pose * (0.5 * (low + high));
+    const Vec3 x = rotate(pose.orientation, {1, 0, 0}), z = rotate(pose.orientation, {0, 0, 1});
+    plane.edges.push_back({x, dot(x, center), 0.5 * (high.x - low.x)});
+    plane.edges.push_back({z, dot(z, center), 0.5 * (high.z - low.z)});
+    return plane;
+}
+
 /// The end of the cylinder that the point is farther out of.
 Plane cylinderPlane(const Pose& pose, const Cylinder& cylinder, Vec3 from) {
     const double side = dot(rotate(pose.orientation, {0, 1, 0}), from - pose.position) < 0.0 ? -1.0 : 1.0;
@@ -192,8 +230,12 @@ Plane planeOf(const Scenario& scenario, int floor, Vec3 from) {
         plane = segmentPlane(pose, *segment, from);
     } else if (const auto* field = std::get_if<HeightField>(&shape.geometry)) {
         plane = fieldPlane(pose, *field, subject);
+    } else if (const auto* chain = std::get_if<Chain>(&shape.geometry)) {
+        plane = chainPlane(pose, *chain, subject);
+    } else if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
+        plane = meshPlane(pose, *mesh, subject);
     } else {
-        violated(subject + " must be a half-space, a box, a cylinder, a segment or a flat height field");
+        violated(subject + " must be a half-space, a box, a cylinder, a segment or a flat surface");
     }
     require(plane.holds(from), "the body starts beyond the edge of " + subject);
     plane.material = shape.material;

@@ -132,6 +132,15 @@ std::unique_ptr<Case> resting() {
     for (std::size_t k = 0; k < kLast; ++k) c->run.contacts[k] = {touch};
     return c;
 }
+/// The ball on a floor of two triangles.
+std::unique_ptr<Case> onMesh() {
+    auto c = resting();
+    TriangleMesh mesh;
+    mesh.vertices = {{-1, 0, -1}, {1, 0, -1}, {-1, 0, 1}, {1, 0, 1}};
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}};
+    c->scenario.bodies[0].shapes[0].geometry = mesh;
+    return c;
+}
 /// The ball pressed on the floor by 2 N s in one step: mu p_n = 1 N s. K is 1/m = 0.5 1/kg along the normal
 /// and 1/m + r^2/(0.4 m r^2) = 1.75 1/kg across it.
 std::unique_ptr<Case> pressed() {
@@ -288,6 +297,11 @@ const std::vector<Row>& rows() {
         {"penetration_max", "ball", resting, [](Case& c) { c.run.contacts[10][0].depth = 0.004; }, 0.004},
         {"overlap_max", "ball", resting, [](Case& c) { shiftUp(c.at(50, 1), -0.01); }, 0.01},
         {"initial_overlap", "ball", resting, [](Case& c) { c.run.contacts[0][0].depth = 0.04; }, 0.04},
+        {"bodies_through", "", onMesh,
+         [](Case& c) {
+             for (std::size_t k = 50; k <= kLast; ++k) shiftUp(c.at(k, 1), -0.5);
+         },
+         1},
         {"normal_error", "ball", resting,
          [](Case& c) {
              c.run.contacts[10][0].normal = {std::sin(0.02), std::cos(0.02), 0};
