@@ -31,6 +31,7 @@ Preset fastPreset() {
              {"reuse_distance", shown(def.cacheTolerance)},
              {"box_margin", shown(def.boxMargin)},
              {"speculative_distance", shown(def.speculativeDistance)},
+             {"speculative_motion", shown(def.speculativeMotion)},
              {"curved_joints", def.relinearizedJoints ? "on" : "off"}}};
 }
 

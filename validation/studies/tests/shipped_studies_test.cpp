@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The findings of the studies on symmetries and chaos hold; of the second, which takes minutes, some parts.
+// The findings of the studies on symmetries, chaos and surfaces hold; of the second, which takes minutes, some
+// parts.
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -50,6 +51,10 @@ TEST(ShippedStudies, SymmetriesHold) {
 
 TEST(ShippedStudies, ChaosHolds) {
     expectFindings(partsOf("chaos", {"heap_parts_2d", "heap_2d"}), 10);
+}
+
+TEST(ShippedStudies, SurfacesHold) {
+    expectFindings("surfaces", 10);
 }
 
 }  // namespace
