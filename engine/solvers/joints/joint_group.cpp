@@ -11,44 +11,70 @@ namespace rigor::engine {
 
 template <class S>
 void JointGroup<S>::begin(ConstraintRows<S>& constraints) {
-    all_.clear();
-    equalities_.clear();
-    bounded_.clear();
+    if (findBlocks(constraints)) findParts();
     items_.clear();
-    for (std::uint32_t i = 0; i < constraints.blocks.size(); ++i) {
-        const Block<S>& block = constraints.blocks[i];
-        if (block.kind == BlockKind::Contact) continue;
-        all_.push_back(i);
-        if (block.kind == BlockKind::Bounded) {
-            bounded_.push_back(i);
-            continue;
-        }
-        equalities_.push_back(i);
+    for (const std::uint32_t k : equalities_) {
+        const Block<S>& block = constraints.blocks[k];
         items_.push_back({&block, constraints.rows.data() + block.first});
     }
-    direct_ = equalities_.size() > 1 && system_.factor(items_);
-    if (!direct_) invertJoints<S>(constraints);
+    direct_ = equalities_.size() > 1 && system_.factor(items_, *tasks_);
+    if (!direct_) return invertJoints<S>(constraints);
+    if (changed_) {
+        findSystems();
+        findNear();
+        makeRoom();
+    }
+    for (Part& part : parts_) {
+        part.count = 0;
+        part.tooMany = false;
+    }
+    std::fill(acts_.begin(), acts_.end(), std::uint8_t(0));
 }
 
 template <class S>
 void JointGroup<S>::warmStart(const ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities) const {
-    for (const std::uint32_t k : all_) {
-        const Block<S>& block = constraints.blocks[k];
-        for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
-            const Row<S>& row = constraints.rows[i];
-            applyRowImpulse<S>(row, block, row.impulse, velocities[block.a], velocities[block.b]);
+    tasks_->forEach(parts_.size(), kGrain, [&](std::size_t p) {
+        for (std::uint32_t k = parts_[p].block; k < parts_[p].lastBlock; ++k) {
+            const Block<S>& block = constraints.blocks[blocks_[k]];
+            for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
+                const Row<S>& row = constraints.rows[i];
+                applyRowImpulse<S>(row, block, row.impulse, velocities[block.a], velocities[block.b]);
+            }
         }
-    }
+    });
 }
 
 template <class S>
 typename S::Real JointGroup<S>::solve(ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities) {
+    tasks_->forEach(parts_.size(), kGrain,
+                    [&](std::size_t p) { found_[p] = solvePart(parts_[p], constraints, velocities); });
     Real found = 0;
-    const int sweeps = (direct_ ? bounded_.size() + 1 : all_.size()) > 1 ? kSweeps : 1;
+    for (const Real x : found_) found = std::max(found, x);
+    return found;
+}
+
+template <class S>
+typename S::Real JointGroup<S>::solvePart(Part& part, ConstraintRows<S>& constraints,
+                                          std::span<Velocity<S>> velocities) {
+    Real found = 0;
+    if (direct_) {
+        found = solveEqualities(part, constraints, velocities);
+        if (part.bounded == part.lastBounded || solveActing(part, constraints, velocities, found))
+            return found;
+    }
+    return std::max(found, solveInTurn(part, constraints, velocities));
+}
+
+/// Bounded rows one by one and equality rows in turn, or all blocks one by one where there are no factors.
+template <class S>
+typename S::Real JointGroup<S>::solveInTurn(const Part& part, ConstraintRows<S>& constraints,
+                                            std::span<Velocity<S>> velocities) {
+    Real found = 0;
+    const int sweeps = part.lastBlock - part.block > 1 ? kSweeps : 1;
     for (int i = 0; i < sweeps; ++i) {
-        Real largest =
-            direct_ ? solveBounded(constraints, velocities) : sweep(constraints, velocities, i % 2 != 0);
-        if (direct_) largest = std::max(largest, solveEqualities(constraints, velocities));
+        Real largest = direct_ ? solveBounded(part, constraints, velocities)
+                               : sweep(part, constraints, velocities, i % 2 != 0);
+        if (direct_) largest = std::max(largest, solveEqualities(part, constraints, velocities));
         if (i == 0) found = largest;
         if (largest <= kTolerance * found) break;
     }
@@ -56,11 +82,11 @@ typename S::Real JointGroup<S>::solve(ConstraintRows<S>& constraints, std::span<
 }
 
 template <class S>
-typename S::Real JointGroup<S>::solveBounded(ConstraintRows<S>& constraints,
+typename S::Real JointGroup<S>::solveBounded(const Part& part, ConstraintRows<S>& constraints,
                                              std::span<Velocity<S>> velocities) const {
     Real largest = 0;
-    for (const std::uint32_t k : bounded_) {
-        const Block<S>& block = constraints.blocks[k];
+    for (std::uint32_t k = part.bounded; k < part.lastBounded; ++k) {
+        const Block<S>& block = constraints.blocks[bounded_[k]];
         largest = std::max(largest, satisfyBoundedRow<S>(constraints.rows[block.first], block,
                                                          velocities[block.a], velocities[block.b]));
     }
@@ -68,10 +94,10 @@ typename S::Real JointGroup<S>::solveBounded(ConstraintRows<S>& constraints,
 }
 
 template <class S>
-typename S::Real JointGroup<S>::solveEqualities(ConstraintRows<S>& constraints,
+typename S::Real JointGroup<S>::solveEqualities(const Part& part, ConstraintRows<S>& constraints,
                                                 std::span<Velocity<S>> velocities) {
     Real largest = 0;
-    for (std::size_t k = 0; k < equalities_.size(); ++k) {
+    for (std::uint32_t k = part.equality; k < part.lastEquality; ++k) {
         const Block<S>& block = constraints.blocks[equalities_[k]];
         const Row<S>* rows = constraints.rows.data() + block.first;
         const Velocity<S>&a = velocities[block.a], &b = velocities[block.b];
@@ -81,8 +107,16 @@ typename S::Real JointGroup<S>::solveEqualities(ConstraintRows<S>& constraints,
             largest = std::max(largest, std::abs(right[i]));
         }
     }
-    system_.solve();
-    for (std::size_t k = 0; k < equalities_.size(); ++k) {
+    for (std::uint32_t k = part.system; k < part.lastSystem; ++k) system_.solve(systems_[k]);
+    applyEqualities(part, constraints, velocities);
+    return largest;
+}
+
+/// Applies the impulses that stand in system_.
+template <class S>
+void JointGroup<S>::applyEqualities(const Part& part, ConstraintRows<S>& constraints,
+                                    std::span<Velocity<S>> velocities) {
+    for (std::uint32_t k = part.equality; k < part.lastEquality; ++k) {
         const Block<S>& block = constraints.blocks[equalities_[k]];
         Row<S>* rows = constraints.rows.data() + block.first;
         const Real* const lambda = system_.at(k);
@@ -103,15 +137,15 @@ typename S::Real JointGroup<S>::solveEqualities(ConstraintRows<S>& constraints,
             velocities[block.b].w += turnB;
         }
     }
-    return largest;
 }
 
 template <class S>
-typename S::Real JointGroup<S>::sweep(ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities,
-                                      bool backwards) const {
+typename S::Real JointGroup<S>::sweep(const Part& part, ConstraintRows<S>& constraints,
+                                      std::span<Velocity<S>> velocities, bool backwards) const {
     Real largest = 0;
-    for (std::size_t k = 0; k < all_.size(); ++k) {
-        const Block<S>& block = constraints.blocks[all_[backwards ? all_.size() - 1 - k : k]];
+    for (std::uint32_t k = part.block; k < part.lastBlock; ++k) {
+        const std::uint32_t i = backwards ? part.lastBlock - 1 - (k - part.block) : k;
+        const Block<S>& block = constraints.blocks[blocks_[i]];
         Velocity<S>&a = velocities[block.a], &b = velocities[block.b];
         largest = std::max(largest, block.kind == BlockKind::Joint
                                         ? satisfyJointBlock<S>(constraints, block, a, b)

@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// All joints of a step as one unit of a solver's sweep: equality blocks at once by a direct method
-// (joint_system.hpp), bounded rows (limits, motors, springs) between them one by one. Used by solvers that
+// All joints of a step as units of a solver's sweep, one for all joints that are connected. Used by solvers that
 // solve joints and contacts in turn:
 //     begin      finds the joints among the rows and factors them; again whenever a row or a softness changed
 //     solve      one pass, as often as wanted: biases and impulses may change in between
-// Where so many joints meet that the factors would be nearly dense the pass is a sweep over all blocks
-// instead, forwards and backwards in turn. One equality block alone is solved by its own inverse.
+// Equality blocks are solved at once by a direct method (joint_system.hpp), and bounded rows (limits, motors,
+// springs) under the condition that the equality rows hold (joint_group_bounds.cpp). A part does not depend on
+// the others, and threads share the parts. Where so many joints meet that the factors would be nearly dense the
+// pass is a sweep over all blocks instead, forwards and backwards in turn. One equality block alone is solved by
+// its own inverse.
 //
-// Cost: begin and solve are linear in the number of joints in chains and trees; see joint_system.cpp for
-// loops.
+// Cost: begin and solve are linear in the number of joints in chains and trees, and begin in the number of
+// bounded rows that act; see joint_system.cpp for loops.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "engine/core/tasks.hpp"
 #include "engine/solvers/joints/joint_system.hpp"
 
 namespace rigor::engine {
@@ -26,10 +29,12 @@ class JointGroup {
   public:
     using Real = typename S::Real;
 
+    /// Threads of begin() and solve().
+    void useThreads(const Tasks& tasks) { tasks_ = &tasks; }
     /// The joints of these rows, whose directions and softnesses stay until the next begin(). Allocates where
     /// joints came or went.
     void begin(ConstraintRows<S>& constraints);
-    bool empty() const { return equalities_.empty() && bounded_.empty(); }
+    bool empty() const { return blocks_.empty(); }
     /// Applies the impulses that the joints' rows start with to the velocities.
     void warmStart(const ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities) const;
     /// One pass: changes the joints' impulses and the velocities so that J v + bias + softness lambda
@@ -38,16 +43,76 @@ class JointGroup {
     Real solve(ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities);
 
   private:
-    Real solveBounded(ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities) const;
-    Real solveEqualities(ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities);
-    Real sweep(ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities, bool backwards) const;
+    /// What the parts depend on. A body that no impulse moves does not connect joints.
+    struct Place {
+        std::uint32_t block;
+        std::uint32_t a, b;  ///< kNullIndex: moved by no impulse
+        BlockKind kind;
+        std::uint8_t rows;
+        friend bool operator==(const Place&, const Place&) = default;
+    };
+    /// Joints that are connected by bodies: ranges of the arrays below, the last ones excluded.
+    struct Part {
+        std::uint32_t block = 0, lastBlock = 0, equality = 0, lastEquality = 0, bounded = 0, lastBounded = 0;
+        std::uint32_t system = 0, lastSystem = 0;
+        // --- bounded rows that act, joint_group_bounds.cpp
+        std::uint32_t numbers = 0;                        ///< equality rows
+        std::uint32_t room = 0;                           ///< largest number of acting rows
+        std::size_t acting = 0, columns = 0, matrix = 0;  ///< indices of its first ones
+        std::uint32_t count = 0;                          ///< acting rows so far
+        bool tooMany = false;                             ///< there are more than `room`
+    };
+    /// An equality block that moves a body which a bounded row moves, too.
+    struct Near {
+        std::uint32_t equality;  ///< index in equalities_
+        bool isEqualityB, isRowB;
+    };
+    bool findBlocks(const ConstraintRows<S>& constraints);
+    void findParts();
+    void findSystems();
+    void findNear();
+    void makeRoom();
+    Real solvePart(Part& part, ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities);
+    Real solveInTurn(const Part& part, ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities);
+    Real solveBounded(const Part& part, ConstraintRows<S>& constraints,
+                      std::span<Velocity<S>> velocities) const;
+    Real solveEqualities(const Part& part, ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities);
+    void applyEqualities(const Part& part, ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities);
+    bool solveActing(Part& part, ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities,
+                     Real& found);
+    Real findActing(Part& part, const ConstraintRows<S>& constraints,
+                    std::span<const Velocity<S>> velocities);
+    void addActing(Part& part, const ConstraintRows<S>& constraints, std::uint32_t bounded);
+    void relaxActing(const Part& part, const ConstraintRows<S>& constraints);
+    void applyActing(const Part& part, ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities);
+    Real sweep(const Part& part, ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities,
+               bool backwards) const;
 
-    static constexpr int kSweeps = 10;                       ///< maximum number of sweeps per pass
-    static constexpr Real kTolerance = Real(0.01);           ///< relative to the first sweep's residual
-    std::vector<std::uint32_t> all_, equalities_, bounded_;  ///< blocks, in their order
-    std::vector<typename JointSystem<S>::Item> items_;
+    static constexpr int kSweeps = 10;                ///< maximum number of sweeps per pass
+    static constexpr Real kTolerance = Real(0.01);    ///< relative to the first sweep's residual
+    static constexpr std::uint32_t kMostActing = 32;  ///< of a part
+    static constexpr int kRounds = 4;                 ///< in each, more rows may begin to act
+    static constexpr int kPasses = 50;                ///< maximum number of passes over the acting rows
+    /// Of a row's own mobility; the system of equality rows has a shift of 2.4e-5 (double: 3.7e-11) of its own.
+    static constexpr Real kLeastMobility = sizeof(Real) == sizeof(float) ? Real(1e-4) : Real(1e-9);
+    static constexpr std::size_t kGrain = 8;  ///< parts: one takes some microseconds
+    const Tasks* tasks_ = &Tasks::one();
+    std::vector<Place> places_;
+    std::vector<Part> parts_;
+    std::vector<std::uint32_t> blocks_, equalities_, bounded_;  ///< blocks, part by part, in their order
+    std::vector<std::uint32_t> systems_;                        ///< parts of system_, part by part
+    std::vector<typename JointSystem<S>::Item> items_;          ///< equality blocks
+    std::vector<Real> found_;                                   ///< residual of each part
+    std::vector<std::uint32_t> firstNear_;                      ///< bounded row -> its first entry of near_
+    std::vector<Near> near_;
+    std::vector<std::uint32_t> offset_;  ///< equality block -> its first number in a column
+    std::vector<std::uint8_t> acts_;     ///< bounded row -> 1 if it is among the acting ones
+    std::vector<std::uint32_t> acting_;  ///< acting rows, as indices of bounded_
+    /// Of the acting rows: K^-1 c, a column each; matrix; error, impulse and its change.
+    std::vector<Real> columns_, matrix_, error_, impulse_, change_;
     JointSystem<S> system_;
-    bool direct_ = false;  ///< there are factors
+    bool direct_ = false;   ///< there are factors
+    bool changed_ = false;  ///< parts are new
 };
 
 }  // namespace rigor::engine

@@ -119,17 +119,19 @@ typename JointSystem<S>::Place JointSystem<S>::placeOf(const Item& item) {
 }
 
 template <class S>
-bool JointSystem<S>::factor(std::span<const Item> items) {
+bool JointSystem<S>::factor(std::span<const Item> items, const Tasks& tasks) {
     bool same = items.size() == pattern_.size();
     for (std::size_t i = 0; same && i < items.size(); ++i) same = placeOf(items[i]) == pattern_[i];
     if (!same) fits_ = analyse(items);
     if (!fits_) return false;
-    for (const Part& part : parts_)
+    tasks.forEach(parts_.size(), kGrain, [&](std::size_t p) {
+        const Part& part = parts_[p];
         withSize(part.size, [&](auto size) {
             if (part.fronts != kNullIndex) return factorFronts<size()>(items, part);
             assemble<size()>(items, part);
             eliminate<size()>(part);
         });
+    });
     return true;
 }
 
@@ -234,13 +236,14 @@ void JointSystem<S>::eliminate(const Part& part) {
 
 template <class S>
 void JointSystem<S>::solve() {
-    for (const Part& part : parts_) {
-        if (part.fronts != kNullIndex) {
-            fronts_[part.fronts].solve(x_.data() + part.x);
-            continue;
-        }
-        withSize(part.size, [&](auto size) { substitute<size()>(part); });
-    }
+    for (std::size_t p = 0; p < parts_.size(); ++p) solve(p);
+}
+
+template <class S>
+void JointSystem<S>::solve(std::size_t p) {
+    const Part& part = parts_[p];
+    if (part.fronts != kNullIndex) return fronts_[part.fronts].solve(x_.data() + part.x);
+    withSize(part.size, [&](auto size) { substitute<size()>(part); });
 }
 
 template <class S>

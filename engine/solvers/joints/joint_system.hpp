@@ -12,6 +12,7 @@
 
 #include "engine/constraints/row.hpp"
 #include "engine/core/ids.hpp"
+#include "engine/core/tasks.hpp"
 #include "engine/solvers/joints/elimination.hpp"
 #include "engine/solvers/joints/joint_fronts.hpp"
 
@@ -30,15 +31,20 @@ class JointSystem {
     /// Factors K of the items. False: so many blocks share bodies that the factors would be nearly
     /// dense (more than kMaxFill blocks per item); then there are no factors and solve() may not be called.
     /// Allocates where the items' bodies or numbers of rows are not those of the call before.
-    bool factor(std::span<const Item> items);
+    bool factor(std::span<const Item> items, const Tasks& tasks = Tasks::one());
     /// Right side of an item, replaced by its solution, one number per row, in the order of factor(). All
     /// right sides have to be set before each solve().
     Real* at(std::size_t item) { return x_.data() + place_[item]; }
     /// K x = right side.
     void solve();
+    /// Items that are connected are a part. The same for one of the parts: threads may solve several at once.
+    void solve(std::size_t part);
+    /// The part of an item.
+    std::uint32_t partOf(std::size_t item) const { return part_[item]; }
 
   private:
     static constexpr std::size_t kMaxFill = 24;
+    static constexpr std::size_t kGrain = 8;  ///< parts: one takes some microseconds
     /// Items, and products of blocks per item, from which dense fronts are faster than blocks.
     static constexpr std::size_t kMinFrontItems = 60, kLongColumns = 24;
 
@@ -92,6 +98,7 @@ class JointSystem {
     std::vector<Coupling> couplings_;
     std::vector<std::uint32_t> item_;      ///< position -> item
     std::vector<std::uint32_t> position_;  ///< item -> position
+    std::vector<std::uint32_t> part_;      ///< item -> part
     std::vector<std::size_t> place_;       ///< item -> place of its right side in x_
     /// Blocks below the diagonal, column by column; entries of a column by growing row (positions).
     std::vector<std::size_t> start_;

@@ -79,6 +79,7 @@ void JointSystem<S>::layOut(Elimination& order) {
     row_.swap(order.row);
     const std::size_t n = item_.size();
     position_.resize(n);
+    part_.resize(n);
     place_.resize(n);
     parts_.clear();
     target_.clear();
@@ -88,6 +89,7 @@ void JointSystem<S>::layOut(Elimination& order) {
         Part part{order.part[p], order.part[p + 1], 1, 0, 0, lower, diagonal, x, target_.size(), kNullIndex};
         for (std::uint32_t k = part.first; k < part.last; ++k) {
             position_[item_[k]] = k;
+            part_[item_[k]] = static_cast<std::uint32_t>(parts_.size());
             part.size = std::max(part.size, static_cast<int>(pattern_[item_[k]].rows));
         }
         const auto size = static_cast<std::size_t>(part.size);

@@ -62,6 +62,7 @@ class Wide final : public PatchSolver<S> {
     void solvePatches(const SolverInput<S>& input, Patches<S>& patches, const PatchPass& parameters,
                       const Tasks& tasks) override {
         ConstraintRows<S>& rows = input.constraints;
+        joints_.useThreads(tasks);
         if (!input.warmStarted) {
             joints_.begin(rows);
             joints_.warmStart(rows, input.velocities);

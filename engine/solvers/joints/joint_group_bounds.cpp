@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Bounded rows (limits, motors, springs) of a part, solved under the condition that its equality rows hold. Let
+// B be the bounded rows that act, J the equality rows, K = J M^-1 J^T + softness their system, and
+// c = J M^-1 B^T. An impulse mu along B is answered by -K^-1 c mu along J, and together they change the
+// velocities of the bounded rows by
+//     D mu,   D = B M^-1 B^T - c^T K^-1 c + softness     (the Schur complement of the equality rows)
+// so that, once the equality rows hold, mu solves the small dense problem
+//     lower <= mu <= upper,   B v + bias + softness mu + D (change of mu) = 0 or of the bound's sign
+// by projected Gauss-Seidel. Solving bounded and equality rows in turn instead converges slowly: a limit acts
+// on the inertia that is left to its coordinate, which may be a small part of that of its row alone.
+//
+// A row acts from when it is first found in error until the next begin(). Cost: a solution of K for each row
+// that begins to act.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/solvers/joints/joint_group.hpp"
+#include "engine/solvers/sequential_impulses.hpp"
+
+namespace rigor::engine {
+namespace {
+
+/// J1 M^-1 J2^T of rows of two blocks, one body of each: the same body.
+template <class S>
+typename S::Real bodyCoupling(const Row<S>& r1, bool isB1, const Row<S>& r2, bool isB2,
+                              typename S::Real invMass) {
+    const typename S::Real linear = isB1 == isB2 ? invMass : -invMass;
+    return linear * r1.lin.dot(r2.lin) + dotAng(isB1 ? r1.angB : r1.angA, isB2 ? r2.invIAngB : r2.invIAngA);
+}
+
+/// J1 M^-1 J2^T of rows of two blocks.
+template <class S>
+typename S::Real blockCoupling(const Row<S>& r1, const Block<S>& b1, const Row<S>& r2, const Block<S>& b2) {
+    typename S::Real sum = 0;
+    if (b1.a == b2.a) sum += bodyCoupling<S>(r1, false, r2, false, b1.invMassA);
+    if (b1.a == b2.b) sum += bodyCoupling<S>(r1, false, r2, true, b1.invMassA);
+    if (b1.b == b2.a) sum += bodyCoupling<S>(r1, true, r2, false, b1.invMassB);
+    if (b1.b == b2.b) sum += bodyCoupling<S>(r1, true, r2, true, b1.invMassB);
+    return sum;
+}
+
+}  // namespace
+
+/// Solves the bounded rows of a part whose equality rows hold; `found` becomes the largest residual. False:
+/// there are too many acting rows.
+template <class S>
+bool JointGroup<S>::solveActing(Part& part, ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities,
+                                Real& found) {
+    for (int round = 0; round < kRounds && !part.tooMany; ++round) {
+        const Real largest = findActing(part, constraints, velocities);
+        if (round == 0) found = std::max(found, largest);
+        if (largest <= kTolerance * found) return true;
+        if (part.tooMany) return false;
+        relaxActing(part, constraints);
+        applyActing(part, constraints, velocities);
+    }
+    return !part.tooMany;
+}
+
+/// Finds the errors of the bounded rows, and which of them act. Returns the largest [m/s or rad/s].
+template <class S>
+typename S::Real JointGroup<S>::findActing(Part& part, const ConstraintRows<S>& constraints,
+                                           std::span<const Velocity<S>> velocities) {
+    Real largest = 0;
+    for (std::uint32_t k = part.bounded; k < part.lastBounded; ++k) {
+        const Block<S>& block = constraints.blocks[bounded_[k]];
+        const Row<S>& row = constraints.rows[block.first];
+        const Real error = rowError<S>(row, velocities[block.a], velocities[block.b]);
+        const Real step = std::clamp(row.impulse - row.invK * error, row.lower, row.upper) - row.impulse;
+        if (step == 0) continue;
+        largest = std::max(largest, std::abs(step) / row.invK);
+        if (acts_[k]) continue;
+        if (part.count == part.room) {
+            part.tooMany = true;
+            continue;
+        }
+        addActing(part, constraints, k);
+    }
+    for (std::uint32_t i = 0; i < part.count; ++i) {
+        const Block<S>& block = constraints.blocks[bounded_[acting_[part.acting + i]]];
+        const Row<S>& row = constraints.rows[block.first];
+        error_[part.acting + i] = rowError<S>(row, velocities[block.a], velocities[block.b]);
+    }
+    return largest;
+}
+
+/// The column and the numbers of the matrix of one more acting row.
+template <class S>
+void JointGroup<S>::addActing(Part& part, const ConstraintRows<S>& constraints, std::uint32_t bounded) {
+    const Block<S>& block = constraints.blocks[bounded_[bounded]];
+    const Row<S>& row = constraints.rows[block.first];
+    const std::uint32_t own = part.count++;
+    acting_[part.acting + own] = bounded;
+    acts_[bounded] = 1;
+    Real* const column = columns_.data() + part.columns + std::size_t(own) * part.numbers;
+    std::fill_n(column, part.numbers, Real(0));
+    for (std::uint32_t e = firstNear_[bounded]; e < firstNear_[bounded + 1]; ++e) {
+        const Near& near = near_[e];
+        const Block<S>& other = constraints.blocks[equalities_[near.equality]];
+        const Real invMass = near.isRowB ? block.invMassB : block.invMassA;
+        Real* const c = column + offset_[near.equality];
+        for (std::uint32_t i = 0; i < other.rows; ++i)
+            c[i] += bodyCoupling<S>(constraints.rows[other.first + i], near.isEqualityB, row, near.isRowB,
+                                    invMass);
+    }
+    const auto eachNumber = [&](const auto& use) {
+        for (std::uint32_t k = part.equality; k < part.lastEquality; ++k)
+            for (std::uint32_t i = 0; i < constraints.blocks[equalities_[k]].rows; ++i)
+                use(system_.at(k)[i], column[offset_[k] + i]);
+    };
+    eachNumber([](Real& x, Real c) { x = c; });
+    for (std::uint32_t k = part.system; k < part.lastSystem; ++k) system_.solve(systems_[k]);
+    // The columns of the rows before this one are K^-1 c of theirs: c of this one is all that is needed.
+    for (std::uint32_t j = 0; j <= own; ++j) {
+        const Real* const answer = columns_.data() + part.columns + std::size_t(j) * part.numbers;
+        const Block<S>& other = constraints.blocks[bounded_[acting_[part.acting + j]]];
+        const Row<S>& otherRow = constraints.rows[other.first];
+        Real D = blockCoupling<S>(row, block, otherRow, other);
+        if (j == own) {
+            D += row.softness;
+            eachNumber([&](Real x, Real c) { D -= c * x; });
+        } else {
+            for (std::uint32_t i = 0; i < part.numbers; ++i) D -= column[i] * answer[i];
+        }
+        matrix_[part.matrix + std::size_t(own) * part.room + j] = D;
+        matrix_[part.matrix + std::size_t(j) * part.room + own] = D;
+    }
+    eachNumber([](Real x, Real& c) { c = x; });
+    // The coordinate cannot move where what is left of its mobility is below the rounding of the system.
+    Real& D = matrix_[part.matrix + std::size_t(own) * part.room + own];
+    if (!(D * row.invK > kLeastMobility)) D = 0;
+}
+
+/// Projected Gauss-Seidel on the acting rows: finds their impulses and the changes of these.
+template <class S>
+void JointGroup<S>::relaxActing(const Part& part, const ConstraintRows<S>& constraints) {
+    const std::uint32_t n = part.count;
+    Real *const error = error_.data() + part.acting, *const impulse = impulse_.data() + part.acting,
+                *const change = change_.data() + part.acting;
+    const Real* const matrix = matrix_.data() + part.matrix;
+    const auto rowOf = [&](std::uint32_t i) -> const Row<S>& {
+        return constraints.rows[constraints.blocks[bounded_[acting_[part.acting + i]]].first];
+    };
+    for (std::uint32_t i = 0; i < n; ++i) {
+        impulse[i] = rowOf(i).impulse;
+        change[i] = 0;
+    }
+    Real first = 0;
+    for (int pass = 0; pass < kPasses; ++pass) {
+        Real largest = 0;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const Real* const line = matrix + std::size_t(i) * part.room;
+            if (line[i] == 0) continue;
+            const Row<S>& row = rowOf(i);
+            const Real next = std::clamp(impulse[i] - error[i] / line[i], row.lower, row.upper);
+            const Real step = next - impulse[i];
+            if (step == 0) continue;
+            impulse[i] = next;
+            change[i] += step;
+            for (std::uint32_t j = 0; j < n; ++j) error[j] += line[j] * step;
+            largest = std::max(largest, std::abs(step) * line[i]);
+        }
+        if (pass == 0) first = largest;
+        if (largest <= kTolerance * kTolerance * first) break;
+    }
+}
+
+template <class S>
+void JointGroup<S>::applyActing(const Part& part, ConstraintRows<S>& constraints,
+                                std::span<Velocity<S>> velocities) {
+    for (std::uint32_t k = part.equality; k < part.lastEquality; ++k)
+        std::fill_n(system_.at(k), constraints.blocks[equalities_[k]].rows, Real(0));
+    for (std::uint32_t i = 0; i < part.count; ++i) {
+        const Real change = change_[part.acting + i];
+        if (change == 0) continue;
+        const Block<S>& block = constraints.blocks[bounded_[acting_[part.acting + i]]];
+        Row<S>& row = constraints.rows[block.first];
+        row.impulse = impulse_[part.acting + i];
+        applyRowImpulse<S>(row, block, change, velocities[block.a], velocities[block.b]);
+        const Real* column = columns_.data() + part.columns + std::size_t(i) * part.numbers;
+        for (std::uint32_t k = part.equality; k < part.lastEquality; ++k) {
+            Real* const x = system_.at(k);
+            const Real* const answer = column + offset_[k];
+            for (std::uint32_t r = 0; r < constraints.blocks[equalities_[k]].rows; ++r)
+                x[r] -= change * answer[r];
+        }
+    }
+    applyEqualities(part, constraints, velocities);
+}
+
+#define RIGOR_INSTANTIATE(S) \
+    template bool JointGroup<S>::solveActing(Part&, ConstraintRows<S>&, std::span<Velocity<S>>, Real&);
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Part of a joint group that is constant while the joints' bodies are the same: which joints are connected, and
+// room for the numbers of bounded rows. Allocates; joint_group.cpp does not.
+#include <algorithm>
+#include <numeric>
+
+#include "engine/solvers/joints/joint_group.hpp"
+
+namespace rigor::engine {
+namespace {
+
+/// The representative of x in a forest of indices, which it flattens.
+std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t x) {
+    while (parent[x] != x) x = parent[x] = parent[parent[x]];
+    return x;
+}
+
+}  // namespace
+
+/// Returns true where the joints are not those of the call before.
+template <class S>
+bool JointGroup<S>::findBlocks(const ConstraintRows<S>& constraints) {
+    std::size_t n = 0;
+    changed_ = false;
+    for (std::uint32_t i = 0; i < constraints.blocks.size(); ++i) {
+        const Block<S>& block = constraints.blocks[i];
+        if (block.kind == BlockKind::Contact) continue;
+        const Place place{i, block.invMassA > 0 ? block.a : kNullIndex,
+                          block.invMassB > 0 ? block.b : kNullIndex, block.kind, block.rows};
+        if (n == places_.size()) {
+            places_.push_back(place);
+            changed_ = true;
+        } else if (!(places_[n] == place)) {
+            places_[n] = place;
+            changed_ = true;
+        }
+        ++n;
+    }
+    changed_ = changed_ || n != places_.size();
+    places_.resize(n);
+    return changed_;
+}
+
+/// Sorts the blocks by the parts that their bodies connect, parts in the order of their first blocks.
+template <class S>
+void JointGroup<S>::findParts() {
+    std::uint32_t bodies = 0;
+    for (const Place& place : places_)
+        for (const std::uint32_t body : {place.a, place.b})
+            if (body != kNullIndex) bodies = std::max(bodies, body + 1);
+    std::vector<std::uint32_t> parent(bodies), partOf(bodies, kNullIndex), part(places_.size());
+    std::iota(parent.begin(), parent.end(), 0U);
+    for (const Place& place : places_)
+        if (place.a != kNullIndex && place.b != kNullIndex)
+            parent[rootOf(parent, place.a)] = rootOf(parent, place.b);
+    std::uint32_t parts = 0;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+        const std::uint32_t body = std::min(places_[k].a, places_[k].b);  // kNullIndex is above all
+        if (body == kNullIndex) {
+            part[k] = parts++;
+            continue;
+        }
+        std::uint32_t& own = partOf[rootOf(parent, body)];
+        if (own == kNullIndex) own = parts++;
+        part[k] = own;
+    }
+    std::vector<std::uint32_t> order(places_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t k, std::uint32_t l) { return part[k] < part[l]; });
+    parts_.assign(parts, {});
+    found_.assign(parts, Real(0));
+    blocks_.clear();
+    equalities_.clear();
+    bounded_.clear();
+    for (const std::uint32_t k : order) {
+        Part& own = parts_[part[k]];
+        const bool holds = places_[k].kind == BlockKind::Joint;
+        if (own.lastBlock == 0) {
+            own.block = static_cast<std::uint32_t>(blocks_.size());
+            own.equality = static_cast<std::uint32_t>(equalities_.size());
+            own.bounded = static_cast<std::uint32_t>(bounded_.size());
+        }
+        blocks_.push_back(places_[k].block);
+        (holds ? equalities_ : bounded_).push_back(places_[k].block);
+        own.lastBlock = static_cast<std::uint32_t>(blocks_.size());
+        own.lastEquality = static_cast<std::uint32_t>(equalities_.size());
+        own.lastBounded = static_cast<std::uint32_t>(bounded_.size());
+    }
+}
+
+/// Bounded rows may connect what are several parts of the system of equality rows.
+template <class S>
+void JointGroup<S>::findSystems() {
+    systems_.clear();
+    for (Part& part : parts_) {
+        part.system = static_cast<std::uint32_t>(systems_.size());
+        for (std::uint32_t i = part.equality; i < part.lastEquality; ++i)
+            systems_.push_back(system_.partOf(i));
+        const auto first = systems_.begin() + part.system;
+        std::sort(first, systems_.end());
+        systems_.erase(std::unique(first, systems_.end()), systems_.end());
+        part.lastSystem = static_cast<std::uint32_t>(systems_.size());
+    }
+}
+
+/// For each bounded row the equality blocks at its bodies.
+template <class S>
+void JointGroup<S>::findNear() {
+    const auto placeOf = [&](std::uint32_t block) -> const Place& {
+        return *std::lower_bound(places_.begin(), places_.end(), block,
+                                 [](const Place& place, std::uint32_t b) { return place.block < b; });
+    };
+    struct End {
+        std::uint32_t body, equality;
+        bool isB;
+        bool operator<(const End& other) const {
+            return body != other.body ? body < other.body : equality < other.equality;
+        }
+    };
+    std::vector<End> ends;
+    for (std::uint32_t k = 0; k < equalities_.size(); ++k) {
+        const Place& place = placeOf(equalities_[k]);
+        if (place.a != kNullIndex) ends.push_back({place.a, k, false});
+        if (place.b != kNullIndex) ends.push_back({place.b, k, true});
+    }
+    std::sort(ends.begin(), ends.end());
+    firstNear_.assign(1, 0);
+    near_.clear();
+    for (const std::uint32_t block : bounded_) {
+        const Place& place = placeOf(block);
+        for (const bool isB : {false, true}) {
+            const std::uint32_t body = isB ? place.b : place.a;
+            if (body == kNullIndex) continue;
+            for (auto end = std::lower_bound(ends.begin(), ends.end(), End{body, 0, false});
+                 end != ends.end() && end->body == body; ++end)
+                near_.push_back({end->equality, end->isB, isB});
+        }
+        firstNear_.push_back(static_cast<std::uint32_t>(near_.size()));
+    }
+}
+
+/// Room for as many acting rows as a part can have.
+template <class S>
+void JointGroup<S>::makeRoom() {
+    std::size_t acting = 0, columns = 0, matrix = 0;
+    offset_.resize(equalities_.size());
+    for (Part& part : parts_) {
+        part.numbers = 0;
+        for (std::uint32_t k = part.equality; k < part.lastEquality; ++k) {
+            offset_[k] = part.numbers;
+            part.numbers += static_cast<std::uint32_t>(items_[k].block->rows);
+        }
+        part.room = std::min(kMostActing, part.lastBounded - part.bounded);
+        part.acting = acting;
+        part.columns = columns;
+        part.matrix = matrix;
+        acting += part.room;
+        columns += std::size_t(part.room) * part.numbers;
+        matrix += std::size_t(part.room) * part.room;
+    }
+    acts_.assign(bounded_.size(), 0);
+    acting_.assign(acting, 0);
+    error_.assign(acting, Real(0));
+    impulse_.assign(acting, Real(0));
+    change_.assign(acting, Real(0));
+    columns_.assign(columns, Real(0));
+    matrix_.assign(matrix, Real(0));
+}
+
+#define RIGOR_INSTANTIATE(S)                                           \
+    template bool JointGroup<S>::findBlocks(const ConstraintRows<S>&); \
+    template void JointGroup<S>::findParts();                          \
+    template void JointGroup<S>::findSystems();                        \
+    template void JointGroup<S>::findNear();                           \
+    template void JointGroup<S>::makeRoom();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine
