@@ -145,6 +145,19 @@ void addTurnCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B
 }
 
 template <class S>
+AxisRowCount countAxisRows(const Joint<S>& joint) {
+    AxisRowCount n;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(joint.axisCount); ++k) {
+        const JointAxis<typename S::Real>& axis = joint.axes[k];
+        if (axis.mode == AxisMode::Locked) ++n.equalities;
+        if (axis.mode == AxisMode::Limited) n.rows += std::isfinite(axis.lower) + std::isfinite(axis.upper);
+        n.rows += axis.hasMotor() + axis.hasSpring();
+    }
+    n.rows += n.equalities;
+    return n;
+}
+
+template <class S>
 void addAxisRows(const Joint<S>& joint, JointRows<S>& out) {
     using Real = typename S::Real;
     const auto append = [&](Real C, const Row<S>& along, Real sign, const RowLaw<S>& law) {
@@ -193,6 +206,7 @@ void addAxisRows(const Joint<S>& joint, JointRows<S>& out) {
     template void addTravelCoordinate<S>(const Joint<S>&, const Pose<S>&, const Pose<S>&, const S::Vec&, \
                                          JointRows<S>&);                                                 \
     template void addTurnCoordinate<S>(const Joint<S>&, const Pose<S>&, const Pose<S>&, JointRows<S>&);  \
+    template AxisRowCount countAxisRows<S>(const Joint<S>&);                                             \
     template void addAxisRows<S>(const Joint<S>&, JointRows<S>&);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

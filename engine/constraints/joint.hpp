@@ -135,6 +135,12 @@ void addTravelCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>&
 /// Adds the coordinate "angle about turnA", counted over turns from joint.lastCoordinate.
 template <class S>
 void addTurnCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out);
+/// Number of the rows that addAxisRows() appends.
+struct AxisRowCount {
+    int equalities = 0, rows = 0;  ///< equality rows; all rows
+};
+template <class S>
+AxisRowCount countAxisRows(const Joint<S>& joint);
 /// Appends the rows of the joint's axes: equality rows, then limits, motors and springs.
 template <class S>
 void addAxisRows(const Joint<S>& joint, JointRows<S>& out);

@@ -6,6 +6,8 @@
 #include <array>
 #include <limits>
 
+#include "engine/core/check.hpp"
+
 namespace rigor::engine {
 namespace {
 
@@ -119,7 +121,21 @@ constexpr bool countsTurns(JointType type) {
 }  // namespace
 
 template <class S>
-void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step, ConstraintRows<S>& rows) {
+void JointSet<S>::countRows(const BodyArrays<S>& bodies, Record& record) {
+    const Joint<S>& joint = record.joint;
+    const AxisRowCount axes = countAxisRows(joint);
+    if (record.ownRows < 0) {
+        record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made_);
+        record.ownRows = made_.count - axes.rows;
+        record.ownEqualities = made_.equalities - axes.equalities;
+    }
+    record.rows = static_cast<std::uint32_t>(record.ownRows + axes.rows);
+    record.equalities = static_cast<std::uint32_t>(record.ownEqualities + axes.equalities);
+}
+
+template <class S>
+void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step, ConstraintRows<S>& rows,
+                          const Tasks& tasks) {
     for (Record& record : records_) {
         const std::uint32_t a = record.joint.a, b = record.joint.b;
         record.solved = record.islands == step.islands;
@@ -129,41 +145,57 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
             record.rows = record.equalities = 0;
             continue;
         }
-        record.evaluate(record.joint, bodies.pose[a], bodies.pose[b], made_);
-        record.rows = static_cast<std::uint32_t>(made_.count);
-        record.equalities = static_cast<std::uint32_t>(made_.equalities);
+        countRows(bodies, record);
         record.block = static_cast<std::uint32_t>(rows.blocks.size());
-        record.armB = rotate(bodies.pose[b].q, record.joint.anchorB);
         rows.rows.resize(record.firstRow + record.rows);
-        Block<S> block;
-        block.a = a;
-        block.b = b;
-        block.invMassA = bodies.invMass[a];
-        block.invMassB = bodies.invMass[b];
-        for (std::uint32_t i = 0; i < record.rows; ++i) {
-            if (i == 0 || i >= record.equalities) {
-                block.kind = i < record.equalities ? BlockKind::Joint : BlockKind::Bounded;
-                block.rows = static_cast<std::uint8_t>(i < record.equalities ? record.equalities : 1);
-                block.first = record.firstRow + i;
-                rows.blocks.push_back(block);
-            }
-            Row<S>& row = rows.rows[record.firstRow + i];
-            row.lin = made_.row[i].lin;
-            row.angA = made_.row[i].angA;
-            row.angB = made_.row[i].angB;
-            addRow(bodies, step, made_.law[i], made_.error[i], block, row);
-            row.impulse = step.warmStart * record.impulse[i];
-            if (i >= record.equalities) row.impulse = std::clamp(row.impulse, row.lower, row.upper);
-        }
-        if (record.equalities == 0) continue;
-        Row<S>* own = rows.rows.data() + record.firstRow;
-        for (std::uint32_t i = record.equalities; i < record.rows; ++i)
-            if (made_.law[i].role == RowRole::Spring && made_.law[i].softness.frequency > 0)
-                setSpringFrequency<S>(own, rows.blocks[record.block], made_.law[i].softness, step,
-                                      bodies.velocity, own[i]);
+        rows.blocks.resize(record.block + record.rows - record.equalities + (record.equalities > 0));
     }
+    tasks.forRanges(records_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        JointRows<S> made;
+        for (std::size_t i = begin; i < end; ++i)
+            if (records_[i].solved && (records_[i].rows > 0 || countsTurns(records_[i].joint.type)))
+                fillRows(bodies, step, records_[i], made, rows);
+    });
     startBias_.resize(rows.rows.size());
     for (std::size_t i = 0; i < startBias_.size(); ++i) startBias_[i] = rows.rows[i].bias;
+}
+
+template <class S>
+void JointSet<S>::fillRows(const BodyArrays<S>& bodies, const JointStep<S>& step, Record& record,
+                           JointRows<S>& made, ConstraintRows<S>& rows) const {
+    Joint<S>& joint = record.joint;
+    // After a sub-step the coordinates are read here, at the end of a step by storeImpulses().
+    made.reading = !step.begins && countsTurns(joint.type);
+    record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made);
+    if (made.reading) std::copy_n(made.value.begin(), made.axes, joint.lastCoordinate.begin());
+    RIGOR_CHECK(static_cast<std::uint32_t>(made.count) == record.rows || record.rows == 0, "rows of a joint");
+    record.armB = rotate(bodies.pose[joint.b].q, joint.anchorB);
+    Block<S> block;
+    block.a = joint.a;
+    block.b = joint.b;
+    block.invMassA = bodies.invMass[joint.a];
+    block.invMassB = bodies.invMass[joint.b];
+    Block<S>* next = rows.blocks.data() + record.block;
+    Row<S>* const own = rows.rows.data() + record.firstRow;
+    for (std::uint32_t i = 0; i < record.rows; ++i) {
+        if (i == 0 || i >= record.equalities) {
+            block.kind = i < record.equalities ? BlockKind::Joint : BlockKind::Bounded;
+            block.rows = static_cast<std::uint8_t>(i < record.equalities ? record.equalities : 1);
+            block.first = record.firstRow + i;
+            *next++ = block;
+        }
+        Row<S>& row = own[i];
+        row.lin = made.row[i].lin;
+        row.angA = made.row[i].angA;
+        row.angB = made.row[i].angB;
+        addRow(bodies, step, made.law[i], made.error[i], block, row);
+        row.impulse = step.warmStart * record.impulse[i];
+        if (i >= record.equalities) row.impulse = std::clamp(row.impulse, row.lower, row.upper);
+    }
+    for (std::uint32_t i = record.equalities; i < record.rows && record.equalities > 0; ++i)
+        if (made.law[i].role == RowRole::Spring && made.law[i].softness.frequency > 0)
+            setSpringFrequency<S>(own, rows.blocks[record.block], made.law[i].softness, step, bodies.velocity,
+                                  own[i]);
 }
 
 /// Completes a row whose Jacobian is set: effective mass, bias, softness, bounds.
@@ -293,9 +325,9 @@ void JointSet<S>::restart(ConstraintRows<S>& rows, std::span<Velocity<S>> veloci
 }
 
 template <class S>
-void JointSet<S>::storeImpulses(const BodyArrays<S>& bodies, const ConstraintRows<S>& rows) {
-    for (Record& record : records_) {
-        if (!record.solved) continue;
+void JointSet<S>::storeImpulses(const BodyArrays<S>& bodies, const ConstraintRows<S>& rows, bool ends,
+                                const Tasks& tasks) {
+    const auto store = [&](Record& record, JointRows<S>& made) {
         Joint<S>& joint = record.joint;
         typename S::Vec force = S::Vec::Zero();
         typename S::Ang moment = zeroAng<S>();
@@ -308,12 +340,16 @@ void JointSet<S>::storeImpulses(const BodyArrays<S>& bodies, const ConstraintRow
         }
         record.reactionImpulse += force;
         record.reactionAngularImpulse += moment - cross(record.armB, force);
-        if (!countsTurns(joint.type)) continue;
-        made_.reading = true;
-        record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made_);
-        made_.reading = false;
-        std::copy_n(made_.value.begin(), made_.axes, joint.lastCoordinate.begin());
-    }
+        if (!ends || !countsTurns(joint.type)) return;
+        made.reading = true;
+        record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made);
+        std::copy_n(made.value.begin(), made.axes, joint.lastCoordinate.begin());
+    };
+    tasks.forRanges(records_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        JointRows<S> made;
+        for (std::size_t i = begin; i < end; ++i)
+            if (records_[i].solved) store(records_[i], made);
+    });
 }
 
 template <class S>

@@ -201,8 +201,9 @@ void Step<S>::makeRows() {
                         step.warmStart,
                         method_.relinearizedJoints && motion_.movesWithSolvedVelocity(),
                         step.islands,
-                        motion_.isAtMidpoint() && !method_.style.positions};
-    joints_.addRows(bodies_, state_.jointStep, rows_);
+                        motion_.isAtMidpoint() && !method_.style.positions,
+                        begins};
+    joints_.addRows(bodies_, state_.jointStep, rows_, tasks_);
     state_.jointRows = rows_.rows.size();
     if (begins) contactModel_.prepare(contacts_.list(), bodies_, step, tasks_);
     contactModel_.beginSubstep(contacts_.list(), bodies_, step, rows_, tasks_);
@@ -250,7 +251,7 @@ void Step<S>::solveImpacts() {
         solveVelocities(std::max(def_.firstStepIterations, method_.velocityIterations), false);
     });
     state_.jointStep.relinearized = relinearized;
-    joints_.storeImpulses(bodies_, rows_);
+    joints_.storeImpulses(bodies_, rows_, false, tasks_);
     contactModel_.store(contacts_.list(), rows_, false, tasks_);
     for (std::size_t i = 0; i < state_.warmStart.size(); ++i) rows_.rows[i].impulse = state_.warmStart[i];
 }
@@ -358,7 +359,7 @@ void Step<S>::correct() {
     const Real h = state_.substepSize;
     const bool last = state_.substep + 1 == method_.substeps;
     if (last) countContacts();
-    joints_.storeImpulses(bodies_, rows_);
+    joints_.storeImpulses(bodies_, rows_, last, tasks_);
     contactModel_.store(contacts_.list(), rows_, last, tasks_);
     if (!method_.style.ownsCorrection) {
         // Slower than this a contact is as good as resting, and its overlap is corrected.
