@@ -82,8 +82,20 @@ class JointGroup {
                      Real& found);
     Real findActing(Part& part, const ConstraintRows<S>& constraints,
                     std::span<const Velocity<S>> velocities);
-    void addActing(Part& part, const ConstraintRows<S>& constraints, std::uint32_t bounded);
-    void relaxActing(const Part& part, const ConstraintRows<S>& constraints);
+    void addColumns(const Part& part, const ConstraintRows<S>& constraints, std::uint32_t first);
+    void findColumn(const Part& part, const ConstraintRows<S>& constraints, std::uint32_t acting);
+    void solveColumns(const Part& part, const ConstraintRows<S>& constraints, std::uint32_t first,
+                      std::uint32_t last);
+    void addToMatrix(const Part& part, const ConstraintRows<S>& constraints, std::uint32_t first,
+                     std::uint32_t last);
+    Real* columnOf(const Part& part, std::uint32_t acting) {
+        return columns_.data() + part.columns + std::size_t(acting) * part.numbers;
+    }
+    Real* lanesOf(std::uint32_t equality) {
+        return lanes_.data() + firstLane_[system_.partOf(equality)] +
+               system_.laneAt(equality) * JointSystem<S>::kLanes;
+    }
+    void relaxActing(const Part& part);
     void applyActing(const Part& part, ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities);
     Real sweep(const Part& part, ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities,
                bool backwards) const;
@@ -108,8 +120,10 @@ class JointGroup {
     std::vector<std::uint32_t> offset_;  ///< equality block -> its first number in a column
     std::vector<std::uint8_t> acts_;     ///< bounded row -> 1 if it is among the acting ones
     std::vector<std::uint32_t> acting_;  ///< acting rows, as indices of bounded_
-    /// Of the acting rows: K^-1 c, a column each; matrix; error, impulse and its change.
-    std::vector<Real> columns_, matrix_, error_, impulse_, change_;
+    /// Of the acting rows: c, then K^-1 c, a column each; matrix; error, impulse, its change and bounds.
+    std::vector<Real> columns_, matrix_, error_, impulse_, change_, lower_, upper_;
+    std::vector<Real> lanes_;             ///< some columns, for JointSystem::solveLanes()
+    std::vector<std::size_t> firstLane_;  ///< part of system_ -> its first number there
     JointSystem<S> system_;
     bool direct_ = false;   ///< there are factors
     bool changed_ = false;  ///< parts are new

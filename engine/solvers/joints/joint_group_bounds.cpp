@@ -14,6 +14,7 @@
 // A row acts from when it is first found in error until the next begin(). Cost: a solution of K for each row
 // that begins to act.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/solvers/joints/joint_group.hpp"
@@ -53,7 +54,7 @@ bool JointGroup<S>::solveActing(Part& part, ConstraintRows<S>& constraints, std:
         if (round == 0) found = std::max(found, largest);
         if (largest <= kTolerance * found) return true;
         if (part.tooMany) return false;
-        relaxActing(part, constraints);
+        relaxActing(part);
         applyActing(part, constraints, velocities);
     }
     return !part.tooMany;
@@ -64,6 +65,7 @@ template <class S>
 typename S::Real JointGroup<S>::findActing(Part& part, const ConstraintRows<S>& constraints,
                                            std::span<const Velocity<S>> velocities) {
     Real largest = 0;
+    const std::uint32_t before = part.count;
     for (std::uint32_t k = part.bounded; k < part.lastBounded; ++k) {
         const Block<S>& block = constraints.blocks[bounded_[k]];
         const Row<S>& row = constraints.rows[block.first];
@@ -76,25 +78,45 @@ typename S::Real JointGroup<S>::findActing(Part& part, const ConstraintRows<S>& 
             part.tooMany = true;
             continue;
         }
-        addActing(part, constraints, k);
+        acting_[part.acting + part.count++] = k;
+        acts_[k] = 1;
     }
     for (std::uint32_t i = 0; i < part.count; ++i) {
         const Block<S>& block = constraints.blocks[bounded_[acting_[part.acting + i]]];
         const Row<S>& row = constraints.rows[block.first];
         error_[part.acting + i] = rowError<S>(row, velocities[block.a], velocities[block.b]);
+        impulse_[part.acting + i] = row.impulse;
+        lower_[part.acting + i] = row.lower;
+        upper_[part.acting + i] = row.upper;
     }
+    if (part.count > before && !part.tooMany) addColumns(part, constraints, before);
     return largest;
 }
 
-/// The column and the numbers of the matrix of one more acting row.
+/// Columns and numbers of the matrix of the acting rows from `first` on.
 template <class S>
-void JointGroup<S>::addActing(Part& part, const ConstraintRows<S>& constraints, std::uint32_t bounded) {
+void JointGroup<S>::addColumns(const Part& part, const ConstraintRows<S>& constraints, std::uint32_t first) {
+    constexpr std::uint32_t W = JointSystem<S>::kLanes;
+    for (std::uint32_t last; first < part.count; first = last) {
+        last = std::min(first + W, part.count);
+        for (std::uint32_t i = first; i < last; ++i) findColumn(part, constraints, i);
+        solveColumns(part, constraints, first, last);
+        addToMatrix(part, constraints, first, last);
+        for (std::uint32_t k = part.equality; k < part.lastEquality; ++k) {
+            const Real* x = lanesOf(k);
+            const std::uint32_t rows = constraints.blocks[equalities_[k]].rows;
+            for (std::uint32_t r = 0; r < rows; ++r, x += W)
+                for (std::uint32_t i = first; i < last; ++i) columnOf(part, i)[offset_[k] + r] = x[i - first];
+        }
+    }
+}
+
+/// c = J M^-1 B^T of an acting row.
+template <class S>
+void JointGroup<S>::findColumn(const Part& part, const ConstraintRows<S>& constraints, std::uint32_t acting) {
+    const std::uint32_t bounded = acting_[part.acting + acting];
     const Block<S>& block = constraints.blocks[bounded_[bounded]];
-    const Row<S>& row = constraints.rows[block.first];
-    const std::uint32_t own = part.count++;
-    acting_[part.acting + own] = bounded;
-    acts_[bounded] = 1;
-    Real* const column = columns_.data() + part.columns + std::size_t(own) * part.numbers;
+    Real* const column = columnOf(part, acting);
     std::fill_n(column, part.numbers, Real(0));
     for (std::uint32_t e = firstNear_[bounded]; e < firstNear_[bounded + 1]; ++e) {
         const Near& near = near_[e];
@@ -102,59 +124,83 @@ void JointGroup<S>::addActing(Part& part, const ConstraintRows<S>& constraints, 
         const Real invMass = near.isRowB ? block.invMassB : block.invMassA;
         Real* const c = column + offset_[near.equality];
         for (std::uint32_t i = 0; i < other.rows; ++i)
-            c[i] += bodyCoupling<S>(constraints.rows[other.first + i], near.isEqualityB, row, near.isRowB,
-                                    invMass);
+            c[i] += bodyCoupling<S>(constraints.rows[other.first + i], near.isEqualityB,
+                                    constraints.rows[block.first], near.isRowB, invMass);
     }
-    const auto eachNumber = [&](const auto& use) {
-        for (std::uint32_t k = part.equality; k < part.lastEquality; ++k)
-            for (std::uint32_t i = 0; i < constraints.blocks[equalities_[k]].rows; ++i)
-                use(system_.at(k)[i], column[offset_[k] + i]);
+}
+
+/// K^-1 c of some acting rows, in lanes_.
+template <class S>
+void JointGroup<S>::solveColumns(const Part& part, const ConstraintRows<S>& constraints, std::uint32_t first,
+                                 std::uint32_t last) {
+    constexpr std::uint32_t W = JointSystem<S>::kLanes;
+    for (std::uint32_t k = part.equality; k < part.lastEquality; ++k) {
+        Real* x = lanesOf(k);
+        const std::uint32_t rows = constraints.blocks[equalities_[k]].rows;
+        for (std::uint32_t r = 0; r < rows; ++r, x += W)
+            for (std::uint32_t l = 0; l < W; ++l)
+                x[l] = first + l < last ? columnOf(part, first + l)[offset_[k] + r] : Real(0);
+    }
+    for (std::uint32_t k = part.system; k < part.lastSystem; ++k)
+        system_.solveLanes(systems_[k], lanes_.data() + firstLane_[systems_[k]]);
+}
+
+/// D of acting rows whose columns are c yet, with K^-1 c in lanes_.
+template <class S>
+void JointGroup<S>::addToMatrix(const Part& part, const ConstraintRows<S>& constraints, std::uint32_t first,
+                                std::uint32_t last) {
+    constexpr std::uint32_t W = JointSystem<S>::kLanes;
+    Real* const matrix = matrix_.data() + part.matrix;
+    const auto blockOf = [&](std::uint32_t i) -> const Block<S>& {
+        return constraints.blocks[bounded_[acting_[part.acting + i]]];
     };
-    eachNumber([](Real& x, Real c) { x = c; });
-    for (std::uint32_t k = part.system; k < part.lastSystem; ++k) system_.solve(systems_[k]);
-    // The columns of the rows before this one are K^-1 c of theirs: c of this one is all that is needed.
-    for (std::uint32_t j = 0; j <= own; ++j) {
-        const Real* const answer = columns_.data() + part.columns + std::size_t(j) * part.numbers;
-        const Block<S>& other = constraints.blocks[bounded_[acting_[part.acting + j]]];
-        const Row<S>& otherRow = constraints.rows[other.first];
-        Real D = blockCoupling<S>(row, block, otherRow, other);
-        if (j == own) {
-            D += row.softness;
-            eachNumber([&](Real x, Real c) { D -= c * x; });
-        } else {
-            for (std::uint32_t i = 0; i < part.numbers; ++i) D -= column[i] * answer[i];
+    for (std::uint32_t i = first; i < last; ++i) {
+        const Block<S>& block = blockOf(i);
+        const Row<S>& row = constraints.rows[block.first];
+        const Real* const c = columnOf(part, i);
+        std::array<Real, W> taken{};
+        for (std::uint32_t k = part.equality; k < part.lastEquality; ++k) {
+            const Real* x = lanesOf(k);
+            const std::uint32_t rows = constraints.blocks[equalities_[k]].rows;
+            for (std::uint32_t r = 0; r < rows; ++r, x += W)
+                if (const Real own = c[offset_[k] + r]; own != 0)
+                    for (std::uint32_t l = 0; l < W; ++l) taken[l] += own * x[l];
         }
-        matrix_[part.matrix + std::size_t(own) * part.room + j] = D;
-        matrix_[part.matrix + std::size_t(j) * part.room + own] = D;
+        for (std::uint32_t j = 0; j <= i; ++j) {
+            const Block<S>& other = blockOf(j);
+            Real D = blockCoupling<S>(row, block, constraints.rows[other.first], other);
+            if (j >= first) {
+                D -= taken[j - first];
+            } else {
+                const Real* const answer = columnOf(part, j);
+                for (std::uint32_t n = 0; n < part.numbers; ++n) D -= c[n] * answer[n];
+            }
+            if (j == i) {
+                D += row.softness;
+                // The coordinate cannot move where what is left of its mobility is below the system's rounding.
+                if (!(D * row.invK > kLeastMobility)) D = 0;
+            }
+            matrix[std::size_t(i) * part.room + j] = matrix[std::size_t(j) * part.room + i] = D;
+        }
     }
-    eachNumber([](Real x, Real& c) { c = x; });
-    // The coordinate cannot move where what is left of its mobility is below the rounding of the system.
-    Real& D = matrix_[part.matrix + std::size_t(own) * part.room + own];
-    if (!(D * row.invK > kLeastMobility)) D = 0;
 }
 
 /// Projected Gauss-Seidel on the acting rows: finds their impulses and the changes of these.
 template <class S>
-void JointGroup<S>::relaxActing(const Part& part, const ConstraintRows<S>& constraints) {
+void JointGroup<S>::relaxActing(const Part& part) {
     const std::uint32_t n = part.count;
-    Real *const error = error_.data() + part.acting, *const impulse = impulse_.data() + part.acting,
-                *const change = change_.data() + part.acting;
+    const auto of = [&](std::vector<Real>& numbers) { return numbers.data() + part.acting; };
+    Real *const error = of(error_), *const impulse = of(impulse_), *const change = of(change_);
+    const Real *const lower = of(lower_), *const upper = of(upper_);
     const Real* const matrix = matrix_.data() + part.matrix;
-    const auto rowOf = [&](std::uint32_t i) -> const Row<S>& {
-        return constraints.rows[constraints.blocks[bounded_[acting_[part.acting + i]]].first];
-    };
-    for (std::uint32_t i = 0; i < n; ++i) {
-        impulse[i] = rowOf(i).impulse;
-        change[i] = 0;
-    }
+    std::fill_n(change, n, Real(0));
     Real first = 0;
     for (int pass = 0; pass < kPasses; ++pass) {
         Real largest = 0;
         for (std::uint32_t i = 0; i < n; ++i) {
             const Real* const line = matrix + std::size_t(i) * part.room;
             if (line[i] == 0) continue;
-            const Row<S>& row = rowOf(i);
-            const Real next = std::clamp(impulse[i] - error[i] / line[i], row.lower, row.upper);
+            const Real next = std::clamp(impulse[i] - error[i] / line[i], lower[i], upper[i]);
             const Real step = next - impulse[i];
             if (step == 0) continue;
             impulse[i] = next;
@@ -179,7 +225,7 @@ void JointGroup<S>::applyActing(const Part& part, ConstraintRows<S>& constraints
         Row<S>& row = constraints.rows[block.first];
         row.impulse = impulse_[part.acting + i];
         applyRowImpulse<S>(row, block, change, velocities[block.a], velocities[block.b]);
-        const Real* column = columns_.data() + part.columns + std::size_t(i) * part.numbers;
+        const Real* const column = columnOf(part, i);
         for (std::uint32_t k = part.equality; k < part.lastEquality; ++k) {
             Real* const x = system_.at(k);
             const Real* const answer = column + offset_[k];

@@ -145,8 +145,9 @@ void JointGroup<S>::findNear() {
 /// Room for as many acting rows as a part can have.
 template <class S>
 void JointGroup<S>::makeRoom() {
-    std::size_t acting = 0, columns = 0, matrix = 0;
+    std::size_t acting = 0, columns = 0, matrix = 0, lanes = 0;
     offset_.resize(equalities_.size());
+    firstLane_.assign(systems_.size(), 0);
     for (Part& part : parts_) {
         part.numbers = 0;
         for (std::uint32_t k = part.equality; k < part.lastEquality; ++k) {
@@ -160,14 +161,18 @@ void JointGroup<S>::makeRoom() {
         acting += part.room;
         columns += std::size_t(part.room) * part.numbers;
         matrix += std::size_t(part.room) * part.room;
+        if (part.room == 0) continue;
+        for (std::uint32_t k = part.system; k < part.lastSystem; ++k) {
+            firstLane_[systems_[k]] = lanes;
+            lanes += JointSystem<S>::kLanes * system_.numbersOf(systems_[k]);
+        }
     }
     acts_.assign(bounded_.size(), 0);
     acting_.assign(acting, 0);
-    error_.assign(acting, Real(0));
-    impulse_.assign(acting, Real(0));
-    change_.assign(acting, Real(0));
+    for (auto* numbers : {&error_, &impulse_, &change_, &lower_, &upper_}) numbers->assign(acting, Real(0));
     columns_.assign(columns, Real(0));
     matrix_.assign(matrix, Real(0));
+    lanes_.assign(lanes, Real(0));
 }
 
 #define RIGOR_INSTANTIATE(S)                                           \

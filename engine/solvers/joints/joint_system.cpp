@@ -11,7 +11,7 @@
 // arrays, without a search.
 //
 // Blocks are of one size in all joints that are connected, smaller ones filled up with ones on the diagonal.
-// Where columns of L are short they stand column by column in columns of kPad numbers, so that they are
+// Where columns of L are short they stand column by column in padded columns, so that they are
 // multiplied by fixed-size loops that compilers turn into vector instructions; where they are long (nets) in
 // dense fronts (joint_fronts.hpp).
 //
@@ -36,60 +36,6 @@
 
 namespace rigor::engine {
 namespace {
-
-/// Numbers that a column of a block of N rows takes: whole vectors of 16 bytes where that costs little.
-template <int N, class R>
-constexpr int kPad = N < 3            ? N
-                     : sizeof(R) == 4 ? (N + 3) / 4 * 4
-                                      : (N + 1) / 2 * 2;
-template <int N, class R>
-constexpr int kBlock = N* kPad<N, R>;
-
-/// Two blocks of a column, the product of one and the other's transpose taken from a third: C -= A B^T.
-template <int N, class R>
-void subtractProduct(const R* __restrict A, const R* __restrict B, R* __restrict C) {
-    constexpr int P = kPad<N, R>;
-    for (int c = 0; c < N; ++c) {
-        R sum[P];
-        for (int r = 0; r < P; ++r) sum[r] = C[c * P + r];
-        for (int k = 0; k < N; ++k) {
-            const R b = B[k * P + c];
-            for (int r = 0; r < P; ++r) sum[r] -= A[k * P + r] * b;
-        }
-        for (int r = 0; r < P; ++r) C[c * P + r] = sum[r];
-    }
-}
-
-/// Cholesky factor of a symmetric block, in its lower triangle, with the reciprocals of its diagonal. A pivot
-/// at `floor` or below is one that rounding has spoilt: its unknown is left out, with zeros in its column.
-template <int N, class R>
-void factorBlock(R* m, const R* floor) {
-    constexpr int P = kPad<N, R>;
-    for (int j = 0; j < N; ++j) {
-        R* const column = m + j * P;
-        for (int k = 0; k < j; ++k)
-            for (int i = j; i < N; ++i) column[i] -= m[k * P + i] * m[k * P + j];
-        const R inverse = column[j] > floor[j] ? R(1) / std::sqrt(column[j]) : R(0);
-        for (int i = j + 1; i < N; ++i) column[i] *= inverse;
-        column[j] = inverse;
-    }
-}
-
-/// A block A below the diagonal becomes that of the factor: A L^-T, for the factor L of its column's
-/// diagonal.
-template <int N, class R>
-void divide(R* __restrict A, const R* __restrict L) {
-    constexpr int P = kPad<N, R>;
-    for (int c = 0; c < N; ++c) {
-        R sum[P];
-        for (int r = 0; r < P; ++r) sum[r] = A[c * P + r];
-        for (int k = 0; k < c; ++k) {
-            const R l = L[k * P + c];
-            for (int r = 0; r < P; ++r) sum[r] -= A[k * P + r] * l;
-        }
-        for (int r = 0; r < P; ++r) A[c * P + r] = sum[r] * L[c * P + c];
-    }
-}
 
 /// Calls use(std::integral_constant<int, size>) for a size of 1..6.
 template <class Use>
@@ -129,7 +75,7 @@ bool JointSystem<S>::factor(std::span<const Item> items, const Tasks& tasks) {
         withSize(part.size, [&](auto size) {
             if (part.fronts != kNullIndex) return factorFronts<size()>(items, part);
             assemble<size()>(items, part);
-            eliminate<size()>(part);
+            eliminate(part);
         });
     });
     return true;
@@ -171,7 +117,7 @@ void JointSystem<S>::addCoupling(const Coupling& coupling, std::span<const Item>
 template <class S>
 template <int N>
 void JointSystem<S>::assemble(std::span<const Item> items, const Part& part) {
-    constexpr int P = kPad<N, Real>, B = kBlock<N, Real>;
+    constexpr int P = paddedRows<Real>(N), B = N * P;
     Real* m = diagonal_.data() + part.diagonal;
     for (std::uint32_t k = part.first; k < part.last; ++k, m += B) addDiagonal<N>(items[item_[k]], m, P);
     Real* lower = lower_.data() + part.lower;
@@ -211,27 +157,28 @@ void JointSystem<S>::factorFronts(std::span<const Item> items, const Part& part)
 }
 
 template <class S>
-template <int N>
+JointPart<typename S::Real> JointSystem<S>::kernelPart(const Part& part) {
+    return {part.full,
+            part.size,
+            part.last - part.first,
+            rows_.data() + part.first,
+            start_.data() + part.first,
+            row_.data(),
+            part.first,
+            target_.data() + part.target,
+            diagonal_.data() + part.diagonal,
+            lower_.data() + part.lower};
+}
+
+template <class S>
 void JointSystem<S>::eliminate(const Part& part) {
-    constexpr int P = kPad<N, Real>, B = kBlock<N, Real>;
+    const auto size = static_cast<std::size_t>(part.size);
+    const auto pad = static_cast<std::size_t>(paddedRows<Real>(part.size));
     Real *const diagonal = diagonal_.data() + part.diagonal, *const x = x_.data() + part.x;
-    Real* const lower = lower_.data() + part.lower;
-    const std::size_t firstEntry = start_[part.first], columns = part.last - part.first;
-    for (std::size_t k = 0; k < columns; ++k)
-        for (std::size_t i = 0; i < N; ++i) x[k * P + i] = shiftPivot(diagonal[k * B + i * P + i]);
-    const std::uint32_t* target = target_.data() + part.target;
-    for (std::size_t k = 0; k < columns; ++k) {
-        Real* const D = diagonal + k * B;
-        factorBlock<N>(D, x + k * P);
-        const std::size_t first = start_[part.first + k], count = start_[part.first + k + 1] - first;
-        Real* const L = lower + (first - firstEntry) * B;
-        for (std::size_t e = 0; e < count; ++e) divide<N>(L + e * B, D);
-        for (std::size_t e = 0; e < count; ++e) {
-            subtractProduct<N>(L + e * B, L + e * B, diagonal + (row_[first + e] - part.first) * B);
-            for (std::size_t f = e + 1; f < count; ++f)
-                subtractProduct<N>(L + f * B, L + e * B, lower + *target++ * B);
-        }
-    }
+    for (std::size_t k = 0; k < part.last - part.first; ++k)
+        for (std::size_t i = 0; i < size; ++i)
+            x[k * pad + i] = shiftPivot(diagonal[(k * size + i) * pad + i]);
+    factorPart(kernelPart(part), x);
 }
 
 template <class S>
@@ -243,43 +190,24 @@ template <class S>
 void JointSystem<S>::solve(std::size_t p) {
     const Part& part = parts_[p];
     if (part.fronts != kNullIndex) return fronts_[part.fronts].solve(x_.data() + part.x);
-    withSize(part.size, [&](auto size) { substitute<size()>(part); });
+    solvePart(kernelPart(part), x_.data() + part.x);
 }
 
 template <class S>
-template <int N>
-void JointSystem<S>::substitute(const Part& part) {
-    constexpr int P = kPad<N, Real>, B = kBlock<N, Real>;
-    const Real *const diagonal = diagonal_.data() + part.diagonal, *const lower = lower_.data() + part.lower;
-    Real* const x = x_.data() + part.x;
-    const std::size_t firstEntry = start_[part.first], columns = part.last - part.first;
-    for (std::size_t k = 0; k < columns; ++k) {
-        const Real* const D = diagonal + k * B;
-        Real* const own = x + k * P;
-        for (int c = 0; c < N; ++c) {
-            own[c] *= D[c * P + c];
-            for (int r = c + 1; r < N; ++r) own[r] -= D[c * P + r] * own[c];
-        }
-        for (std::size_t e = start_[part.first + k]; e < start_[part.first + k + 1]; ++e) {
-            const Real* const L = lower + (e - firstEntry) * B;
-            Real* const other = x + (row_[e] - part.first) * P;
-            for (int c = 0; c < N; ++c)
-                for (int r = 0; r < P; ++r) other[r] -= L[c * P + r] * own[c];
-        }
-    }
-    for (std::size_t k = columns; k-- > 0;) {
-        const Real* const D = diagonal + k * B;
-        Real* const own = x + k * P;
-        for (std::size_t e = start_[part.first + k]; e < start_[part.first + k + 1]; ++e) {
-            const Real* const L = lower + (e - firstEntry) * B;
-            const Real* const other = x + (row_[e] - part.first) * P;
-            for (int c = 0; c < N; ++c)
-                for (int r = 0; r < N; ++r) own[c] -= L[c * P + r] * other[r];
-        }
-        for (int c = N; c-- > 0;) {
-            for (int r = c + 1; r < N; ++r) own[c] -= D[c * P + r] * own[r];
-            own[c] *= D[c * P + c];
-        }
+std::size_t JointSystem<S>::numbersOf(std::size_t p) const {
+    return (p + 1 < parts_.size() ? parts_[p + 1].x : x_.size()) - parts_[p].x;
+}
+
+template <class S>
+void JointSystem<S>::solveLanes(std::size_t p, Real* x) {
+    const Part& part = parts_[p];
+    if (part.fronts == kNullIndex) return solvePartLanes(kernelPart(part), x);
+    Real* const own = x_.data() + part.x;
+    const std::size_t n = numbersOf(p);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        for (std::size_t i = 0; i < n; ++i) own[i] = x[i * kLanes + lane];
+        fronts_[part.fronts].solve(own);
+        for (std::size_t i = 0; i < n; ++i) x[i * kLanes + lane] = own[i];
     }
 }
 

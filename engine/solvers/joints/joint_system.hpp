@@ -15,6 +15,7 @@
 #include "engine/core/tasks.hpp"
 #include "engine/solvers/joints/elimination.hpp"
 #include "engine/solvers/joints/joint_fronts.hpp"
+#include "engine/solvers/joints/part_kernels.hpp"
 
 namespace rigor::engine {
 
@@ -41,6 +42,12 @@ class JointSystem {
     void solve(std::size_t part);
     /// The part of an item.
     std::uint32_t partOf(std::size_t item) const { return part_[item]; }
+    /// kLanes right sides of a part at once: `x` has numbersOf(part) times kLanes numbers, those of an item from
+    /// laneAt(item) times kLanes on, the lanes of each row together; 0 where an item has no row.
+    static constexpr std::size_t kLanes = kJointLanes<Real>;
+    void solveLanes(std::size_t part, Real* x);
+    std::size_t numbersOf(std::size_t part) const;
+    std::size_t laneAt(std::size_t item) const { return place_[item] - parts_[part_[item]].x; }
 
   private:
     static constexpr std::size_t kMaxFill = 24;
@@ -69,6 +76,7 @@ class JointSystem {
         std::size_t lower, diagonal, x;      ///< indices of its first numbers
         std::size_t target;                  ///< index of its first entry in target_
         std::uint32_t fronts;                ///< kNullIndex, or where its fronts are
+        bool full;                           ///< all its items have `size` rows
     };
     static Place placeOf(const Item& item);
     bool analyse(std::span<const Item> items);
@@ -87,16 +95,15 @@ class JointSystem {
     static void addCoupling(const Coupling& coupling, std::span<const Item> items, Real* m,
                             std::size_t stride);
     static Real shiftPivot(Real& pivot);
-    template <int N>
     void eliminate(const Part& part);
-    template <int N>
-    void substitute(const Part& part);
+    JointPart<Real> kernelPart(const Part& part);
 
     std::vector<Place> pattern_;
     bool fits_ = false;
     std::vector<Part> parts_;
     std::vector<Coupling> couplings_;
     std::vector<std::uint32_t> item_;      ///< position -> item
+    std::vector<std::uint8_t> rows_;       ///< position -> rows of its item
     std::vector<std::uint32_t> position_;  ///< item -> position
     std::vector<std::uint32_t> part_;      ///< item -> part
     std::vector<std::size_t> place_;       ///< item -> place of its right side in x_

@@ -9,16 +9,6 @@
 #include "engine/solvers/joints/joint_system.hpp"
 
 namespace rigor::engine {
-namespace {
-
-/// Numbers of a block in columns of kPad (joint_system.cpp).
-int blockSize(int rows, bool single) {
-    const int pad = rows < 3 ? rows : single ? (rows + 3) / 4 * 4 : (rows + 1) / 2 * 2;
-    return rows * pad;
-}
-
-}  // namespace
-
 /// Order of elimination and pattern of L. Allocates.
 template <class S>
 bool JointSystem<S>::analyse(std::span<const Item> items) {
@@ -80,20 +70,24 @@ void JointSystem<S>::layOut(Elimination& order) {
     const std::size_t n = item_.size();
     position_.resize(n);
     part_.resize(n);
+    rows_.resize(n);
     place_.resize(n);
     parts_.clear();
     target_.clear();
     fronts_.clear();
     std::size_t lower = 0, diagonal = 0, x = 0;
     for (std::size_t p = 0; p + 1 < order.part.size(); ++p) {
-        Part part{order.part[p], order.part[p + 1], 1, 0, 0, lower, diagonal, x, target_.size(), kNullIndex};
+        Part part{order.part[p],  order.part[p + 1], 1,   0, 0, lower, diagonal, x,
+                  target_.size(), kNullIndex,        true};
         for (std::uint32_t k = part.first; k < part.last; ++k) {
             position_[item_[k]] = k;
+            rows_[k] = static_cast<std::uint8_t>(pattern_[item_[k]].rows);
             part_[item_[k]] = static_cast<std::uint32_t>(parts_.size());
             part.size = std::max(part.size, static_cast<int>(pattern_[item_[k]].rows));
         }
+        for (std::uint32_t k = part.first; k < part.last; ++k) part.full = part.full && rows_[k] == part.size;
         const auto size = static_cast<std::size_t>(part.size);
-        const auto block = static_cast<std::size_t>(blockSize(part.size, sizeof(Real) == sizeof(float)));
+        const auto block = size * static_cast<std::size_t>(paddedRows<Real>(part.size));
         const bool long_ = needsFronts(part.first, part.last);
         const std::size_t pad = long_ ? size : block / size;
         for (std::uint32_t k = part.first; k < part.last; ++k) place_[item_[k]] = x + (k - part.first) * pad;
