@@ -136,6 +136,7 @@ void JointSet<S>::countRows(const BodyArrays<S>& bodies, Record& record) {
 template <class S>
 void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step, ConstraintRows<S>& rows,
                           const Tasks& tasks) {
+    recordOf_.clear();
     for (Record& record : records_) {
         const std::uint32_t a = record.joint.a, b = record.joint.b;
         record.solved = record.islands == step.islands;
@@ -149,6 +150,8 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
         record.block = static_cast<std::uint32_t>(rows.blocks.size());
         rows.rows.resize(record.firstRow + record.rows);
         rows.blocks.resize(record.block + record.rows - record.equalities + (record.equalities > 0));
+        recordOf_.resize(rows.blocks.size(), kNullIndex);
+        if (record.rows > 0) recordOf_[record.block] = static_cast<std::uint32_t>(&record - records_.data());
     }
     tasks.forRanges(records_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         JointRows<S> made;
@@ -250,38 +253,56 @@ BiasChange<typename S::Real> JointSet<S>::updateBiases(const BodyArrays<S>& bodi
                                                        ConstraintRows<S>& rows) {
     BiasChange<Real> change;
     if (!step.relinearized) return change;
+    for (const Record& record : records_)
+        if (record.solved && record.rows > 0) updateBias(bodies, step, velocities, record, rows, change);
+    return change;
+}
+
+template <class S>
+BiasChange<typename S::Real> JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                                                       std::span<const Velocity<S>> velocities,
+                                                       ConstraintRows<S>& rows,
+                                                       std::span<const std::uint32_t> blocks) {
+    BiasChange<Real> change;
+    if (!step.relinearized) return change;
+    for (const std::uint32_t block : blocks)
+        if (block < recordOf_.size() && recordOf_[block] != kNullIndex)
+            updateBias(bodies, step, velocities, records_[recordOf_[block]], rows, change);
+    return change;
+}
+
+template <class S>
+void JointSet<S>::updateBias(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                             std::span<const Velocity<S>> velocities, const Record& record,
+                             ConstraintRows<S>& rows, BiasChange<Real>& change) {
     const auto moved = [&](std::uint32_t i) -> Pose<S> {
         return {bodies.pose[i].p + step.h * velocities[i].v,
                 rotatedBy(bodies.pose[i].q, typename S::Ang(step.h * velocities[i].w))};
     };
-    for (const Record& record : records_) {
-        if (!record.solved || record.rows == 0) continue;
-        const Block<S>& block = rows.blocks[record.block];
-        typename S::Vec force = S::Vec::Zero();
-        for (std::uint32_t i = 0; i < record.rows; ++i)
-            force += rows.rows[record.firstRow + i].impulse * rows.rows[record.firstRow + i].lin;
-        const auto fractionOf = [&](std::uint32_t i, const typename S::Vec& anchor) {
-            const typename S::Vec arm = rotate(bodies.pose[i].q, anchor);
-            return std::min(
-                swingFraction<S>(step.h, velocities[i].w, arm),
-                stiffnessFraction<S>(step.h, force.norm(), arm, bodies.invMass[i], bodies.invInertia[i]));
-        };
-        const Real fraction = step.curvature * std::min(fractionOf(block.a, record.joint.anchorA),
-                                                        fractionOf(block.b, record.joint.anchorB));
-        record.evaluate(record.joint, moved(block.a), moved(block.b), made_);
-        for (std::uint32_t i = 0; i < record.rows; ++i) {
-            if (made_.law[i].role != RowRole::Equality && made_.law[i].role != RowRole::Limit) continue;
-            Row<S>& row = rows.rows[record.firstRow + i];
-            const Real beyondLinear = (made_.error[i] - row.error) / step.h -
-                                      rowVelocity<S>(row, velocities[block.a], velocities[block.b]);
-            const Real bias = fraction * beyondLinear;
-            change.step = std::max(change.step, std::abs(bias - row.relaxedBias));
-            change.largest = std::max(change.largest, std::abs(bias));
-            row.relaxedBias = bias;
-            row.bias = row.relaxedBias + startBias_[record.firstRow + i];
-        }
+    const Block<S>& block = rows.blocks[record.block];
+    typename S::Vec force = S::Vec::Zero();
+    for (std::uint32_t i = 0; i < record.rows; ++i)
+        force += rows.rows[record.firstRow + i].impulse * rows.rows[record.firstRow + i].lin;
+    const auto fractionOf = [&](std::uint32_t i, const typename S::Vec& anchor) {
+        const typename S::Vec arm = rotate(bodies.pose[i].q, anchor);
+        return std::min(
+            swingFraction<S>(step.h, velocities[i].w, arm),
+            stiffnessFraction<S>(step.h, force.norm(), arm, bodies.invMass[i], bodies.invInertia[i]));
+    };
+    const Real fraction = step.curvature * std::min(fractionOf(block.a, record.joint.anchorA),
+                                                    fractionOf(block.b, record.joint.anchorB));
+    record.evaluate(record.joint, moved(block.a), moved(block.b), made_);
+    for (std::uint32_t i = 0; i < record.rows; ++i) {
+        if (made_.law[i].role != RowRole::Equality && made_.law[i].role != RowRole::Limit) continue;
+        Row<S>& row = rows.rows[record.firstRow + i];
+        const Real beyondLinear = (made_.error[i] - row.error) / step.h -
+                                  rowVelocity<S>(row, velocities[block.a], velocities[block.b]);
+        const Real bias = fraction * beyondLinear;
+        change.step = std::max(change.step, std::abs(bias - row.relaxedBias));
+        change.largest = std::max(change.largest, std::abs(bias));
+        row.relaxedBias = bias;
+        row.bias = row.relaxedBias + startBias_[record.firstRow + i];
     }
-    return change;
 }
 
 template <class S>

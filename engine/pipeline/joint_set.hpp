@@ -77,6 +77,10 @@ class JointSet {
     /// pendulum, whereas the linear row loses a fraction (h w)^2 / 2 of the speed in every step.
     BiasChange<Real> updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
                                   std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows);
+    /// The same for the joints of these blocks.
+    BiasChange<Real> updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                                  std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows,
+                                  std::span<const std::uint32_t> blocks);
 
     /// Stores impulses and velocities before a solve, for work() and restart(). Allocates only when there are
     /// more rows or bodies than ever before.
@@ -93,11 +97,16 @@ class JointSet {
     void countRows(const BodyArrays<S>& bodies, Record& record);
     void fillRows(const BodyArrays<S>& bodies, const JointStep<S>& step, Record& record, JointRows<S>& made,
                   ConstraintRows<S>& rows) const;
+    void updateBias(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                    std::span<const Velocity<S>> velocities, const Record& record, ConstraintRows<S>& rows,
+                    BiasChange<Real>& change);
     void addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, const RowLaw<S>& law, Real error,
                 const Block<S>& block, Row<S>& row) const;
 
     std::vector<Record> records_;
     std::vector<Real> startBias_;  ///< initial bias of each row
+    std::vector<std::uint32_t>
+        recordOf_;  ///< block -> its record, of a record's first block; else kNullIndex
     std::vector<Real> startImpulses_;
     std::vector<Velocity<S>> startVelocities_;
     JointRows<S> made_;

@@ -32,6 +32,10 @@ class StepMonitor final : public IterationMonitor<S> {
         change_ = joints_.updateBiases(bodies_, step_, velocities, rows_);
         ++updates_;
     }
+    void before(std::span<const Velocity<S>> velocities, std::span<const std::uint32_t> blocks) override {
+        change_ = joints_.updateBiases(bodies_, step_, velocities, rows_, blocks);
+        ++updates_;
+    }
     /// True once the joint bias, re-linearised at the predicted end-of-step poses, has stopped changing.
     bool biasConverged() const {
         const Real still = kStill * std::max(tolerance_, std::numeric_limits<Real>::epsilon());

@@ -67,6 +67,7 @@ std::uint32_t PartProblem<S>::local(std::uint32_t body) {
 template <class S>
 void PartProblem<S>::load(const SolverInput<S>& whole, std::span<const std::uint32_t> blocks) {
     whole_ = &whole;
+    blocks_.assign(blocks.begin(), blocks.end());
     rows_.clear();
     rowOf_.clear();
     bodyOf_.clear();
@@ -118,7 +119,7 @@ template <class S>
 void PartProblem<S>::before(std::span<const Velocity<S>>) {
     if (!hasJoints_) return;
     store();
-    whole_->monitor.before(whole_->velocities);
+    whole_->monitor.before(whole_->velocities, blocks_);
     for (std::size_t i = 0; i < rowOf_.size(); ++i) {
         rows_.rows[i].bias = whole_->constraints.rows[rowOf_[i]].bias;
         rows_.rows[i].relaxedBias = whole_->constraints.rows[rowOf_[i]].relaxedBias;

@@ -60,7 +60,7 @@ class PartProblem final : private IterationMonitor<S> {
     ConstraintRows<S> rows_;
     std::vector<Velocity<S>> velocities_;
     bool hasJoints_ = false;
-    std::vector<std::uint32_t> rowOf_, bodyOf_;  ///< row and body of the whole problem
+    std::vector<std::uint32_t> blocks_, rowOf_, bodyOf_;  ///< blocks, rows and bodies of the whole problem
     std::vector<std::uint32_t>
         localOf_;  ///< index of each body of the whole problem; kNullIndex: not in the part
 };

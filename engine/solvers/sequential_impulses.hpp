@@ -23,7 +23,8 @@ namespace rigor::engine {
 
 /// J v + bias + softness lambda: zero where an unbounded row is satisfied.
 template <class S>
-[[gnu::always_inline]] inline typename S::Real rowError(const Row<S>& row, const Velocity<S>& a, const Velocity<S>& b) {
+[[gnu::always_inline]] inline typename S::Real rowError(const Row<S>& row, const Velocity<S>& a,
+                                                        const Velocity<S>& b) {
     return rowVelocity<S>(row, a, b) + row.bias + row.softness * row.impulse;
 }
 

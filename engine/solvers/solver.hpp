@@ -41,6 +41,11 @@ class IterationMonitor {
     virtual ~IterationMonitor() = default;
     /// Lets the maker of the rows renew their biases for the velocities reached so far.
     virtual void before(std::span<const Velocity<S>> velocities) = 0;
+    /// The same for some blocks alone, in ascending order.
+    virtual void before(std::span<const Velocity<S>> velocities, std::span<const std::uint32_t> blocks) {
+        (void)blocks;
+        before(velocities);
+    }
     /// `change` is the largest velocity error [m/s or rad/s] that the iteration removed from a row or block.
     /// True: good enough, stop.
     virtual bool after(std::span<const Velocity<S>> velocities, typename S::Real change) = 0;

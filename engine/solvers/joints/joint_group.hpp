@@ -42,6 +42,13 @@ class JointGroup {
     /// found [m/s or rad/s]. `constraints` are those of begin().
     Real solve(ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities);
 
+    /// Units whose blocks follow each other, for solvers that sweep over them and the contacts: the parts, or all
+    /// joints as one unit where parts are interleaved. Threads may solve several at once.
+    std::uint32_t unitOf(std::uint32_t block) const { return separate_ ? partOf_[block] : 0; }
+    Real solveUnit(std::uint32_t unit, ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities) {
+        return separate_ ? solvePart(parts_[unit], constraints, velocities) : solve(constraints, velocities);
+    }
+
   private:
     /// What the parts depend on. A body that no impulse moves does not connect joints.
     struct Place {
@@ -125,8 +132,10 @@ class JointGroup {
     std::vector<Real> lanes_;             ///< some columns, for JointSystem::solveLanes()
     std::vector<std::size_t> firstLane_;  ///< part of system_ -> its first number there
     JointSystem<S> system_;
-    bool direct_ = false;   ///< there are factors
-    bool changed_ = false;  ///< parts are new
+    std::vector<std::uint32_t> partOf_;  ///< block -> part
+    bool separate_ = false;              ///< the blocks of each part follow each other
+    bool direct_ = false;                ///< there are factors
+    bool changed_ = false;               ///< parts are new
 };
 
 }  // namespace rigor::engine

@@ -89,6 +89,10 @@ void JointGroup<S>::findParts() {
         own.lastEquality = static_cast<std::uint32_t>(equalities_.size());
         own.lastBounded = static_cast<std::uint32_t>(bounded_.size());
     }
+    partOf_.assign(places_.empty() ? 0 : places_.back().block + 1, 0);
+    for (std::uint32_t p = 0; p < parts; ++p)
+        for (std::uint32_t k = parts_[p].block; k < parts_[p].lastBlock; ++k) partOf_[blocks_[k]] = p;
+    separate_ = std::is_sorted(blocks_.begin(), blocks_.end());
 }
 
 /// Bounded rows may connect what are several parts of the system of equality rows.

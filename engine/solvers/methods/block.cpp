@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Block Gauss-Seidel on velocities: projected Gauss-Seidel (pgs.cpp) whose unit is not the row but everything
-// that acts between two bodies, and all joints together. Kernels: sequential_impulses.hpp; source
+// that acts between two bodies, and all joints that are connected. Kernels: sequential_impulses.hpp; source
 // [Catto2005], [Catto2009]. Differences:
 //   - the contacts between two bodies are a group that is swept until it is nearly solved before the next one
 //     is solved: a box then meets its neighbours without the rotation that solving its corners one by one
 //     would leave it with, which is what makes tall stacks rock;
 //   - iterations go forwards and backwards in turn, so that weight travels down a stack as fast as up;
-//   - all joints are a group too, whose equality blocks are solved at once (joint_group.hpp); the normal goes
+//   - connected joints are a group too, whose equality blocks are solved at once (joint_group.hpp); the normal goes
 //     before the tangents, so that friction has this sweep's limit;
 //   - parts of the problem that share no body (independent_parts.hpp) are swept until each of them is solved;
 //     what becomes of a part does not depend on the others;
@@ -17,7 +17,7 @@
 //     ones are then solved to rounding.
 //
 // Cost: the sum over all parts of iterations * rows * (1..kInnerSweeps). Known limits: contacts converge
-// linearly, slowly for large mass ratios, where a part has more rows than that; all joints are in one part.
+// linearly, slowly for large mass ratios, where a part has more rows than that.
 #include <limits>
 #include <utility>
 
@@ -42,10 +42,10 @@ class BlockGaussSeidel final : public Solver<S> {
 
     void solve(const SolverInput<S>& input) override {
         applyWarmStart<S>(input);
+        joints_.begin(input.constraints);
         findGroups(input.constraints.blocks);
         parts_.find<S>(input.constraints.blocks, groups_, input.velocities.size());
         orderGroups(input);
-        joints_.begin(input.constraints);
         iterate(input);
         finish(input);
     }
@@ -58,24 +58,58 @@ class BlockGaussSeidel final : public Solver<S> {
         solved_.assign(parts_.count(), 0);
         found_.resize(groups_.size());
         for (int i = 0; i < input.iterations; ++i) {
-            input.monitor.before(input.velocities);
+            renewBiases(input, i);
             const Real change = sweeps_.template largest<Real>(i % 2 != 0, [&](std::size_t group) {
                 const bool solved = solved_[parts_.partOf(group)] != 0;
                 return found_[group] =
                            solved ? Real(0) : solveGroup(input, groups_[group], groups_[group + 1]);
             });
             if (input.monitor.after(input.velocities, change)) break;
-            markSolved(input.monitor.tolerance());
+            if (markSolved(input)) break;
         }
     }
 
-    void markSolved(Real tolerance) {
-        if (parts_.count() < 2) return;
+    /// Of the parts that are not solved yet.
+    void renewBiases(const SolverInput<S>& input, int iteration) {
+        if (iteration == 0 || parts_.count() == 1) return input.monitor.before(input.velocities);
+        blocks_.clear();
+        for (std::size_t group = 0; group + 1 < groups_.size(); ++group) {
+            if (solved_[parts_.partOf(group)] || !isJoint(input.constraints.blocks[groups_[group]])) continue;
+            for (std::uint32_t k = groups_[group]; k < groups_[group + 1]; ++k) blocks_.push_back(k);
+        }
+        input.monitor.before(input.velocities, blocks_);
+    }
+
+    /// A part is solved to the tolerance, or to the rounding of its velocities where that is more: single
+    /// precision would make all iterations in every step otherwise. Returns true if all parts are.
+    bool markSolved(const SolverInput<S>& input) {
+        const Real tolerance = input.monitor.tolerance();
+        bool all = true;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             Real change = 0;
             for (const std::uint32_t group : parts_.units(part)) change = std::max(change, found_[group]);
-            solved_[part] = change < tolerance;
+            solved_[part] = change < tolerance || (tolerance > 0 && mayBeRounding(change) &&
+                                                   change < Real(0.25) * resolution(input, part));
+            all = all && solved_[part] != 0;
         }
+        return all;
+    }
+
+    /// False: more than the rounding of 1000 m/s.
+    static bool mayBeRounding(Real change) {
+        return change < Real(32e3) * std::numeric_limits<Real>::epsilon();
+    }
+
+    /// Rounding of the velocities of a part; 0 where it has joints, whose biases are not settled by then.
+    Real resolution(const SolverInput<S>& input, std::size_t part) const {
+        Real largest = 0;
+        for (const std::uint32_t group : parts_.units(part))
+            for (std::uint32_t k = groups_[group]; k < groups_[group + 1]; ++k) {
+                const Block<S>& block = input.constraints.blocks[k];
+                if (isJoint(block)) return 0;
+                largest = std::max(largest, blockResolution<S>(input.constraints, block, input.velocities));
+            }
+        return largest;
     }
 
     /// Newton's method solves what sweeps leave of small parts.
@@ -125,13 +159,14 @@ class BlockGaussSeidel final : public Solver<S> {
         return reached;
     }
 
-    /// Consecutive contact blocks between the same two bodies form a group; so do all consecutive joints.
+    /// Consecutive contact blocks between the same two bodies form a group; so do connected joints.
     void findGroups(const std::vector<Block<S>>& blocks) {
         groups_.clear();
         for (std::uint32_t i = 0; i < blocks.size(); ++i) {
             const bool joins =
                 i > 0 && isJoint(blocks[i]) == isJoint(blocks[i - 1]) &&
-                (isJoint(blocks[i]) || (blocks[i].a == blocks[i - 1].a && blocks[i].b == blocks[i - 1].b));
+                (isJoint(blocks[i]) ? joints_.unitOf(i) == joints_.unitOf(i - 1)
+                                    : blocks[i].a == blocks[i - 1].a && blocks[i].b == blocks[i - 1].b);
             if (!joins) groups_.push_back(i);
         }
         groups_.push_back(static_cast<std::uint32_t>(blocks.size()));
@@ -148,7 +183,7 @@ class BlockGaussSeidel final : public Solver<S> {
     /// Returns the residual of the group before it was solved.
     Real solveGroup(const SolverInput<S>& input, std::uint32_t first, std::uint32_t last) {
         if (isJoint(input.constraints.blocks[first]))
-            return joints_.solve(input.constraints, input.velocities);
+            return joints_.solveUnit(joints_.unitOf(first), input.constraints, input.velocities);
         Real found = 0;
         const Real enough =
             std::max(kInnerFloor * input.monitor.tolerance(), std::numeric_limits<Real>::epsilon());
