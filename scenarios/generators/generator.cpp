@@ -11,6 +11,7 @@ const std::vector<Generator>& generatorTable() {
         {"pile", "bodies of several kinds above each other, jittered and turned from a seed", generatePile},
         {"chain", "links in a line, joined end to end and to the world", generateChain},
         {"container", "a floor and walls around it", generateContainer},
+        {"group", "bodies and joints that are written out, as one thing to repeat", generateGroup},
         {"hull_pile", "a pile of convex hulls that are made from a seed", generateHullPile},
         {"net", "a rectangle of bodies, each joined to its neighbours", generateNet},
         {"rain", "bodies that arrive one after the other, evenly in time", generateRain},

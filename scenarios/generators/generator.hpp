@@ -38,6 +38,7 @@ Generated generatePyramid(const Node& node);
 Generated generatePile(const Node& node);
 Generated generateChain(const Node& node);
 Generated generateContainer(const Node& node);
+Generated generateGroup(const Node& node);
 Generated generateHullPile(const Node& node);
 Generated generateNet(const Node& node);
 Generated generateRain(const Node& node);

@@ -272,5 +272,28 @@ TEST(Repeat, CopiesBodiesAndJointsWithTheirNames) {
         testing::HasSubstr("[generator.unknown]"));
 }
 
+TEST(Group, IsWhatIsWrittenOutAndWhatGeneratorsMake) {
+    const std::string group = R"({"group": {
+        "bodies": [{"name": "post", "position": [0, 3, 0], "shapes": [{"sphere": {"radius": 0.1}}]}],
+        "joints": [{"name": "hook", "type": "ball", "a": "post", "b": "l_0", "anchor": [0, 2, 0]}],
+        "generators": [{"chain": {"name": "l", "links": 2, "link_length": 0.5, "origin": [0, 2, 0],
+            "direction": [0, -1, 0], "joint": "ball", "anchored": false, "body": )" +
+                              ballOf(0.1) + "}}]}}";
+    const Scenario s =
+        made(3, R"({"repeat": {"name": "c", "counts": [2, 1, 1], "spacing": [4, 0, 0], "generator": )" +
+                    group + "}}");
+    ASSERT_EQ(s.bodies.size(), 6u);
+    ASSERT_EQ(s.joints.size(), 4u);
+    EXPECT_EQ(s.bodies[0].name, "c_0_0_0_post");
+    EXPECT_EQ(s.bodies[3].name, "c_1_0_0_post");
+    EXPECT_EQ(body(s, "c_1_0_0_post").pose.position.x, 4);
+    const auto hook = std::find_if(s.joints.begin(), s.joints.end(),
+                                   [](const Joint& joint) { return joint.name == "c_1_0_0_hook"; });
+    ASSERT_NE(hook, s.joints.end());
+    EXPECT_EQ(s.bodies[hook->bodyA].name, "c_1_0_0_post");
+    EXPECT_EQ(s.bodies[hook->bodyB].name, "c_1_0_0_l_0");
+    EXPECT_THAT(problemOf(3, R"({"group": {"shapes": []}})"), testing::HasSubstr("shapes"));
+}
+
 }  // namespace
 }  // namespace rigor::scenario

@@ -59,6 +59,8 @@ double reach(const Body& body) {
         double own = 0.0;
         if (const auto* ball = std::get_if<Sphere>(&shape.geometry)) own = ball->radius;
         if (const auto* box = std::get_if<Box>(&shape.geometry)) own = norm(box->halfExtents);
+        if (const auto* capsule = std::get_if<Capsule>(&shape.geometry))
+            own = capsule->radius + capsule->halfLength;
         if (const auto* hull = std::get_if<ConvexHull>(&shape.geometry))
             for (const Vec3& v : hull->vertices) own = std::max(own, norm(v));
         r = std::max(r, own + norm(shape.pose.position));
@@ -72,6 +74,7 @@ double core(const Body& body) {
     double r = 1e9;
     for (const Shape& shape : body.shapes) {
         if (const auto* ball = std::get_if<Sphere>(&shape.geometry)) r = std::min(r, ball->radius);
+        if (const auto* capsule = std::get_if<Capsule>(&shape.geometry)) r = std::min(r, capsule->radius);
         if (const auto* box = std::get_if<Box>(&shape.geometry))
             r = std::min({r, box->halfExtents.x, box->halfExtents.y,
                           box->halfExtents.z > 0 ? box->halfExtents.z : 1e9});
@@ -122,13 +125,24 @@ INSTANTIATE_TEST_SUITE_P(Files, BenchLibrary, testing::ValuesIn(listBenchScenari
 
 /// Required numbers of bodies of the bench's scenes.
 TEST(BenchScenes, HaveTheBodiesTheySay) {
-    const std::map<std::string, std::size_t> counts{
-        {"bench_box_pyramid", 1240},   {"bench_box_pyramid_drop", 1240}, {"bench_sphere_pile", 2000},
-        {"bench_box_pile", 1000},      {"bench_hull_pile", 500},         {"bench_chain_heavy_end", 101},
-        {"bench_chains", 2000},        {"bench_joint_net", 900},         {"bench_pyramid_2d", 5050},
-        {"bench_many_pyramids", 1470}, {"bench_many_pyramids_2d", 2200}, {"bench_pile_2d", 2000},
-        {"bench_tumbler", 1000},       {"bench_tumbler_2d", 900},        {"bench_rain", 1000},
-        {"bench_rain_2d", 1000}};
+    const std::map<std::string, std::size_t> counts{{"bench_box_pyramid", 1240},
+                                                    {"bench_box_pyramid_drop", 1240},
+                                                    {"bench_sphere_pile", 2000},
+                                                    {"bench_box_pile", 1000},
+                                                    {"bench_hull_pile", 500},
+                                                    {"bench_chain_heavy_end", 101},
+                                                    {"bench_chains", 2000},
+                                                    {"bench_joint_net", 900},
+                                                    {"bench_pyramid_2d", 5050},
+                                                    {"bench_many_pyramids", 1470},
+                                                    {"bench_many_pyramids_2d", 2200},
+                                                    {"bench_pile_2d", 2000},
+                                                    {"bench_ragdolls", 2200},
+                                                    {"bench_bridge", 200},
+                                                    {"bench_tumbler", 1000},
+                                                    {"bench_tumbler_2d", 900},
+                                                    {"bench_rain", 1000},
+                                                    {"bench_rain_2d", 1000}};
     for (const auto& [name, count] : counts)
         EXPECT_EQ(dynamicBodies(loadScenario(findScenario(name)).scenario), count) << name;
 }
