@@ -50,7 +50,7 @@ class JointGroup {
     }
 
   private:
-    /// What the parts depend on. A body that no impulse moves does not connect joints.
+    /// A block as the parts depend on it. A body that no impulse moves does not connect joints.
     struct Place {
         std::uint32_t block;
         std::uint32_t a, b;  ///< kNullIndex: moved by no impulse
@@ -109,10 +109,11 @@ class JointGroup {
 
     static constexpr int kSweeps = 10;                ///< maximum number of sweeps per pass
     static constexpr Real kTolerance = Real(0.01);    ///< relative to the first sweep's residual
-    static constexpr std::uint32_t kMostActing = 32;  ///< of a part
+    static constexpr std::uint32_t kMostActing = 32;  ///< largest number of acting rows of a part
     static constexpr int kRounds = 4;                 ///< in each, more rows may begin to act
     static constexpr int kPasses = 50;                ///< maximum number of passes over the acting rows
-    /// Of a row's own mobility; the system of equality rows has a shift of 2.4e-5 (double: 3.7e-11) of its own.
+    /// Least mobility that the equality rows leave to a row that acts, relative to its own. Their system has a
+    /// shift of 2.4e-5 (double: 3.7e-11).
     static constexpr Real kLeastMobility = sizeof(Real) == sizeof(float) ? Real(1e-4) : Real(1e-9);
     static constexpr std::size_t kGrain = 8;  ///< parts: one takes some microseconds
     const Tasks* tasks_ = &Tasks::one();
@@ -127,7 +128,7 @@ class JointGroup {
     std::vector<std::uint32_t> offset_;  ///< equality block -> its first number in a column
     std::vector<std::uint8_t> acts_;     ///< bounded row -> 1 if it is among the acting ones
     std::vector<std::uint32_t> acting_;  ///< acting rows, as indices of bounded_
-    /// Of the acting rows: c, then K^-1 c, a column each; matrix; error, impulse, its change and bounds.
+    /// Numbers of the acting rows: c, then K^-1 c, a column each; matrix; error, impulse, its change and bounds.
     std::vector<Real> columns_, matrix_, error_, impulse_, change_, lower_, upper_;
     std::vector<Real> lanes_;             ///< some columns, for JointSystem::solveLanes()
     std::vector<std::size_t> firstLane_;  ///< part of system_ -> its first number there

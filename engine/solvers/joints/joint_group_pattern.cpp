@@ -110,7 +110,7 @@ void JointGroup<S>::findSystems() {
     }
 }
 
-/// For each bounded row the equality blocks at its bodies.
+/// Finds the equality blocks at the bodies of each bounded row.
 template <class S>
 void JointGroup<S>::findNear() {
     const auto placeOf = [&](std::uint32_t block) -> const Place& {

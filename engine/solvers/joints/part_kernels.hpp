@@ -27,8 +27,8 @@ struct JointPart {
     const std::uint8_t* rows;     ///< position -> rows of its item
     const std::size_t* start;     ///< column -> its first entry of `row`, and of one more
     const std::uint32_t* row;     ///< positions of the blocks below the diagonal, plus `first`
-    std::uint32_t first;          ///< what `row` counts from
-    const std::uint32_t* target;  ///< of each column and pair of its entries the block that it changes
+    std::uint32_t first;          ///< position that `row` counts from
+    const std::uint32_t* target;  ///< block that each pair of entries of a column changes
     R *diagonal, *lower;          ///< blocks of K, then of L with the reciprocals of its diagonal
 };
 

@@ -69,7 +69,7 @@ class BlockGaussSeidel final : public Solver<S> {
         }
     }
 
-    /// Of the parts that are not solved yet.
+    /// Renews the biases of joints in parts that are not solved yet.
     void renewBiases(const SolverInput<S>& input, int iteration) {
         if (iteration == 0 || parts_.count() == 1) return input.monitor.before(input.velocities);
         blocks_.clear();
