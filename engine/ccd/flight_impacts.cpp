@@ -24,6 +24,19 @@ bool stopsAtGap(const Contact<S>& contact) {
     return false;
 }
 
+/// The angular velocity of free rotation changes.
+template <class S>
+bool tumbles(const typename S::Inertia& inertia) {
+    if constexpr (S::dim == 2) {
+        return false;
+    } else {
+        const typename S::Inertia rest =
+            inertia - inertia.trace() / typename S::Real(3) * S::Inertia::Identity();
+        return rest.cwiseAbs().maxCoeff() >
+               typename S::Real(8) * std::numeric_limits<typename S::Real>::epsilon() * inertia.trace();
+    }
+}
+
 }  // namespace
 
 template <class S>
@@ -85,12 +98,26 @@ int FlightImpacts<S>::resolve(const MovedWorld<S>& world, bool bounces, std::vec
             if (flying_[body] && stopsAtGap(contact) && approaches(world, contact))
                 hitClusters_.push_back(rootOf(body));
     keepOnce(hitClusters_);
+    tumble(world);
     const std::size_t before = events.size();
     for (const std::uint32_t cluster : hitClusters_)
         if (!blocked_[cluster]) left += !runCluster(world, cluster, events);
     std::stable_sort(events.begin() + static_cast<std::ptrdiff_t>(before), events.end(),
                      [](const ImpactEvent<S>& e, const ImpactEvent<S>& f) { return e.time < f.time; });
     return left;
+}
+
+template <class S>
+void FlightImpacts<S>::tumble(const MovedWorld<S>& world) {
+    stopped_.assign(world.bodies.size(), 0);
+    for (const Contact<S>& contact : world.contacts.list())
+        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+            if (contact.impulses[i].normal > 0) stopped_[contact.bodyA] = stopped_[contact.bodyB] = 1;
+    for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
+        if (!flying_[i] || stopped_[i] || !tumbles<S>(world.bodies.constants[i].inertia)) continue;
+        goTo(world, i, world.h);
+        world.bodies.leaveMidpoint(i);
+    }
 }
 
 /// Slower approaches are those of contacts: without restitution, of up to twice what forces add in a step.
@@ -312,6 +339,7 @@ bool FlightImpacts<S>::searchFrom(const MovedWorld<S>& world, std::uint32_t body
     template void FlightImpacts<S>::begin(const BodyArrays<S>&, std::span<const std::uint8_t>, Real);    \
     template void FlightImpacts<S>::beforeKick(const BodyArrays<S>&);                                    \
     template void FlightImpacts<S>::afterKick(const BodyArrays<S>&);                                     \
+    template void FlightImpacts<S>::tumble(const MovedWorld<S>&);                                        \
     template int FlightImpacts<S>::resolve(const MovedWorld<S>&, bool, std::vector<ImpactEvent<S>>&);    \
     template typename S::Real FlightImpacts<S>::slowestImpact(const MovedWorld<S>&, Real, std::uint32_t, \
                                                               std::uint32_t) const;                      \

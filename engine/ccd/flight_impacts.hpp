@@ -15,6 +15,10 @@
 // until the end of the step: with v_h = v + rest a, and impulses that hold the contact and oppose sliding
 // by the law of friction, it moves by rest (v + v_h) / 2.
 //
+// A body in flight that has not collided, nor been stopped by the step, and whose inertia is not that of a
+// sphere, goes its own way from the start to the end of the step: the rotation schemes conserve along it what
+// they conserve, which the mean of two midpoints does to second order only.
+//
 // A cluster is left to the step as it is, without impacts at their own times, where
 //   - one of its bodies comes near a body that is not in flight, or a chain, mesh or height field,
 //   - shapes overlap already when the step begins, or approach each other more slowly than that,
@@ -118,6 +122,7 @@ class FlightImpacts {
     bool searchFrom(const MovedWorld<S>& world, std::uint32_t body, std::uint32_t cluster);
     bool searchAgain(const MovedWorld<S>& world, const Pair& hit, std::uint32_t cluster);
     void goTo(const MovedWorld<S>& world, std::uint32_t body, Real t);
+    void tumble(const MovedWorld<S>& world);
     Real hold(const MovedWorld<S>& world, std::uint32_t a, std::uint32_t b, Real t);
 
     // --- by dense body index
@@ -125,6 +130,7 @@ class FlightImpacts {
     std::vector<Velocity<S>> startVelocity_;
     std::vector<std::uint8_t> bound_;  ///< joints or forces act on it, or it is asleep
     std::vector<std::uint8_t> flying_, collided_;
+    std::vector<std::uint8_t> stopped_;     ///< the step has changed its velocity by a contact
     std::vector<Vec> beforeKick_, gained_;  ///< velocity added by forces [m/s]
     std::vector<Way> ways_;
     std::vector<std::uint32_t> parent_;  ///< union-find of bodies in flight
