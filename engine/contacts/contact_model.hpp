@@ -37,6 +37,7 @@ struct ContactStep {
     typename S::Real gapSlop;               ///< gaps up to this count as closed [m]
     typename S::Real warmStart;             ///< factor on the last impulses; 0: none
     bool bounces = true;                    ///< false: restitution is off
+    bool meanSlip = false;                  ///< friction opposes the mean slip of the step (updateSlips)
     IslandSize islands = IslandSize::Usual;  ///< the model is for the contacts of these islands
 };
 
@@ -62,6 +63,12 @@ class ContactModel {
                               ConstraintRows<S>& rows, const Tasks& tasks) = 0;
     /// Solves the joints' rows of `input` and all contacts.
     virtual void solve(Solver<S>& solver, const SolverInput<S>& input, const Tasks& tasks) = 0;
+    /// Called before each iteration of a solve, at the velocities that it has reached: biases of friction rows
+    /// where friction opposes the mean slip of the step, and not that at its end.
+    virtual void updateSlips(std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) const {
+        (void)velocities;
+        (void)rows;
+    }
     /// Called between two solves: gives points of speculative contacts that the impact has reached their
     /// rebound. Returns whether there are any.
     virtual bool applySpeculativeRestitution(const ContactList<S>& contacts, ConstraintRows<S>& rows) const {

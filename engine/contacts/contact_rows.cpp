@@ -168,6 +168,24 @@ void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, cons
 
 }  // namespace
 
+namespace {
+
+/// A slip u at the end of a step plus this bias has the direction of the mean slip, and the length of u: a
+/// contact sticks where it would without. Where the slip turns far or nearly ends within the step there is no
+/// bias: the mean says little then, and the iteration that renews the bias might not converge.
+template <class R, int N>
+Eigen::Matrix<R, N, 1> slipBias(const Eigen::Matrix<R, N, 1>& before, const Eigen::Matrix<R, N, 1>& after) {
+    const R length = after.norm(), first = before.norm();
+    if (!(length > R(0.1) * first) || !(first > 0)) return Eigen::Matrix<R, N, 1>::Zero();
+    const R cosine = before.dot(after) / (first * length);
+    const R share = std::min({R(1), R(5) * (length / first - R(0.1)), R(4) * (cosine - R(0.5))});
+    if (!(share > 0)) return Eigen::Matrix<R, N, 1>::Zero();
+    const Eigen::Matrix<R, N, 1> mean = before + after;
+    return share * (mean * (length / mean.norm()) - after);
+}
+
+}  // namespace
+
 /// Totals start at zero with the rows of the first sub-step.
 template <class S>
 void RowContacts<S>::prepare(ContactList<S>&, const BodyArrays<S>&, const ContactStep<S>& step,
@@ -207,6 +225,39 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
             row += block.rows;
         }
     });
+    findSlips(bodies, step, rows);
+}
+
+/// In 2D all slips of a contact have one direction.
+template <class S>
+void RowContacts<S>::findSlips(const BodyArrays<S>& bodies, const ContactStep<S>& step,
+                               const ConstraintRows<S>& rows) {
+    slips_.clear();
+    if (S::dim == 2 || !step.meanSlip) return;
+    for (std::uint32_t k = 0; k < rows.blocks.size(); ++k) {
+        const Block<S>& block = rows.blocks[k];
+        if (block.kind != BlockKind::Contact || block.rows < 2) continue;
+        Slip slip{k, {}};
+        for (std::size_t i = 0; i < slip.before.size(); ++i)
+            slip.before[i] = rowVelocity<S>(rows.rows[block.first + 1 + i], bodies.velocity[block.a],
+                                            bodies.velocity[block.b]);
+        slips_.push_back(slip);
+    }
+}
+
+template <class S>
+void RowContacts<S>::updateSlips(std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) const {
+    for (const Slip& slip : slips_) {
+        const Block<S>& block = rows.blocks[slip.block];
+        Row<S>* tangents = rows.rows.data() + block.first + 1;
+        Eigen::Matrix<Real, S::tangents, 1> before, after;
+        for (int i = 0; i < S::tangents; ++i) {
+            before[i] = slip.before[static_cast<std::size_t>(i)];
+            after[i] = rowVelocity<S>(tangents[i], velocities[block.a], velocities[block.b]);
+        }
+        const Eigen::Matrix<Real, S::tangents, 1> bias = slipBias<Real, S::tangents>(before, after);
+        for (int i = 0; i < S::tangents; ++i) tangents[i].bias = tangents[i].relaxedBias = bias[i];
+    }
 }
 
 template <class S>

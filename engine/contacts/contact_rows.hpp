@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "engine/contacts/contact_model.hpp"
 
@@ -23,6 +24,7 @@ class RowContacts final : public ContactModel<S> {
                  const Tasks& tasks) override;
     void beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodies, const ContactStep<S>& step,
                       ConstraintRows<S>& rows, const Tasks& tasks) override;
+    void updateSlips(std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) const override;
     void solve(Solver<S>& solver, const SolverInput<S>& input, const Tasks& tasks) override;
     bool applySpeculativeRestitution(const ContactList<S>& contacts, ConstraintRows<S>& rows) const override;
     void store(ContactList<S>& contacts, const ConstraintRows<S>& rows, bool last,
@@ -32,8 +34,16 @@ class RowContacts final : public ContactModel<S> {
     ContactCounts counts() const override { return counts_; }
 
   private:
+    void findSlips(const BodyArrays<S>& bodies, const ContactStep<S>& step, const ConstraintRows<S>& rows);
+
     ContactCounts counts_;
     IslandSize islands_ = IslandSize::Usual;
+    /// A point that slid before the forces of the sub-step acted.
+    struct Slip {
+        std::uint32_t block = 0;
+        std::array<Real, S::tangents> before{};  ///< along its tangents [m/s]
+    };
+    std::vector<Slip> slips_;  ///< where friction opposes the mean slip
     bool stepBegins_ = false;  ///< the next sub-step is the first of its step
 };
 

@@ -17,7 +17,8 @@ void Motion<S>::setInertia(BodyArrays<S>& bodies, const Tasks& tasks) {
 }
 
 template <class S>
-bool Motion<S>::toMidpoint(BodyArrays<S>& bodies, Real half, bool same, const Tasks& tasks) {
+bool Motion<S>::toMidpoint(BodyArrays<S>& bodies, const PerIslandSize<Real>& half, bool same,
+                           const Tasks& tasks) {
     const std::size_t n = bodies.size();
     Midpoints<S>& midpoints = bodies.midpoints;
     midpoints.pose.resize(n);
@@ -26,29 +27,35 @@ bool Motion<S>::toMidpoint(BodyArrays<S>& bodies, Real half, bool same, const Ta
     std::atomic<bool> found = false;
     tasks.forEach(n, kBodyGrain, [&](std::size_t i) {
         if (bodies.constants[i].type == BodyType::Static || bodies.asleep[i]) return;
-        Pose<S>& X = bodies.pose[i];
-        Velocity<S>& velocity = bodies.velocity[i];
         if (same && midpoints.valid[i]) {
-            X = midpoints.pose[i];
-            velocity = midpoints.velocity[i];
+            bodies.pose[i] = midpoints.pose[i];
+            bodies.velocity[i] = midpoints.velocity[i];
             return;
         }
         found = true;
-        const typename S::Rot q0 = X.q;
-        const bool dynamic = bodies.invMass[i] > 0;
-        const Ang mean = dynamic ? freeRotation(bodies.constants[i], q0, velocity.w, half) : velocity.w;
-        X.p += half * velocity.v;
-        X.q = turn_(q0, Ang(half * mean));
-        if (dynamic) velocity.w = rotatedVelocity(bodies.constants[i], q0, X.q, velocity.w, mean);
+        coast(bodies, i, half[bodies.islands[i]]);
     });
     return found;
 }
 
 template <class S>
-void Motion<S>::toEnd(BodyArrays<S>& bodies, std::span<const Velocity<S>> way, Real half,
+void Motion<S>::coast(BodyArrays<S>& bodies, std::size_t i, Real time) const {
+    Pose<S>& X = bodies.pose[i];
+    Velocity<S>& velocity = bodies.velocity[i];
+    const typename S::Rot q0 = X.q;
+    const bool dynamic = bodies.invMass[i] > 0;
+    const Ang mean = dynamic ? freeRotation(bodies.constants[i], q0, velocity.w, time) : velocity.w;
+    X.p += time * velocity.v;
+    X.q = turn_(q0, Ang(time * mean));
+    if (dynamic) velocity.w = rotatedVelocity(bodies.constants[i], q0, X.q, velocity.w, mean);
+}
+
+template <class S>
+void Motion<S>::toEnd(BodyArrays<S>& bodies, IslandSize islands, std::span<const Velocity<S>> way, Real half,
                       const Tasks& tasks) {
     Midpoints<S>& midpoints = bodies.midpoints;
     tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
+        if (bodies.islands[i] != islands) return;
         midpoints.valid[i] = 0;
         if (bodies.constants[i].type == BodyType::Static || bodies.asleep[i]) return;
         Pose<S>& X = bodies.pose[i];
@@ -56,8 +63,9 @@ void Motion<S>::toEnd(BodyArrays<S>& bodies, std::span<const Velocity<S>> way, R
         midpoints.pose[i] = X;
         midpoints.velocity[i] = velocity;
         midpoints.valid[i] = 1;
-        X.p -= half * way[i].v;
-        X.q = turn_(X.q, Ang(-half * way[i].w));
+        const Velocity<S>& used = bodies.constants[i].type == BodyType::Dynamic ? way[i] : velocity;
+        X.p -= half * used.v;
+        X.q = turn_(X.q, Ang(-half * used.w));
         if (bodies.invMass[i] > 0)
             velocity.w =
                 rotatedVelocity(bodies.constants[i], midpoints.pose[i].q, X.q, velocity.w, velocity.w);

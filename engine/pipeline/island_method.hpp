@@ -49,6 +49,7 @@ struct IslandSort {
     std::vector<Counts> counts;
     std::vector<std::uint8_t> large;
     // --- by body
+    std::vector<IslandSize> before;    ///< sizes in the last step
     std::vector<std::uint8_t> paused;  ///< 1: takes no part in the half of the step that runs
     std::vector<Pose<S>> startPoses;   ///< poses where the step began
 };

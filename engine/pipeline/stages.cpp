@@ -17,10 +17,11 @@ template <class S>
 class StepMonitor final : public IterationMonitor<S> {
   public:
     using Real = typename S::Real;
-    StepMonitor(JointSet<S>& joints, const BodyArrays<S>& bodies, JointStep<S>& step, ConstraintRows<S>& rows,
-                Real tolerance, bool measure, const IterationObserver<S>& observer,
-                std::vector<Real>& residuals)
+    StepMonitor(JointSet<S>& joints, const ContactModel<S>& contacts, const BodyArrays<S>& bodies,
+                JointStep<S>& step, ConstraintRows<S>& rows, Real tolerance, bool measure,
+                const IterationObserver<S>& observer, std::vector<Real>& residuals)
         : joints_(joints),
+          contacts_(contacts),
           bodies_(bodies),
           step_(step),
           rows_(rows),
@@ -30,6 +31,7 @@ class StepMonitor final : public IterationMonitor<S> {
           residuals_(residuals) {}
     void before(std::span<const Velocity<S>> velocities) override {
         change_ = joints_.updateBiases(bodies_, step_, velocities, rows_);
+        contacts_.updateSlips(velocities, rows_);
         ++updates_;
     }
     void before(std::span<const Velocity<S>> velocities, std::span<const std::uint32_t> blocks) override {
@@ -60,6 +62,7 @@ class StepMonitor final : public IterationMonitor<S> {
     BiasChange<Real> change_;
     int updates_ = 0;  ///< convergence is not required of two or three
     JointSet<S>& joints_;
+    const ContactModel<S>& contacts_;
     const BodyArrays<S>& bodies_;
     JointStep<S>& step_;
     ConstraintRows<S>& rows_;
@@ -76,84 +79,8 @@ constexpr double kMostWork = 0.01;
 }  // namespace
 
 template <class S>
-void Step<S>::beginFlights() {
-    std::vector<std::uint8_t>& bound = state_.bound;
-    bound.assign(bodies_.size(), 0);
-    for (const auto& record : joints_.records()) bound[record.joint.a] = bound[record.joint.b] = 1;
-    for (const auto& record : world_.forces.records()) bound[record.place.a] = bound[record.place.b] = 1;
-    // A contact that has pressed a body in the last step goes on to do so. Its normal may have turned since.
-    for (const Contact<S>& contact : contacts_.list())
-        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
-            if (contact.impulses[i].normal > 0 && !contact.points[i].impact)
-                bound[contact.bodyA] = bound[contact.bodyB] = 1;
-    state_.flights.begin(bodies_, bound, Real(0.5) * state_.substepSize);
-}
-
-/// Bodies that have collided in flight go to where that takes them.
-template <class S>
-void Step<S>::endFlights() {
-    const MovedWorld<S> world{bodies_,
-                              contacts_,
-                              motion_,
-                              *algorithms_.narrowPhase,
-                              algorithms_.friction,
-                              def_.restitutionThreshold,
-                              state_.size,
-                              Real(0)};
-    result_.unlocatedImpacts =
-        state_.flights.resolve(world, algorithms_.restitution->bounces(), state_.impacts);
-    if (!state_.flights.anyHasCollided()) return;
-    for (Contact<S>& contact : contacts_.list()) {
-        if (!state_.flights.hasCollided(contact.bodyA) && !state_.flights.hasCollided(contact.bodyB))
-            continue;
-        contact.impulses.fill({});
-        contact.totals.fill({});
-    }
-}
-
-/// Integrators that step from midpoint to midpoint begin there.
-template <class S>
-void Step<S>::toMidpoint() {
-    const Real h = state_.substepSize;
-    if (algorithms_.locatesImpacts) beginFlights();
-    contacts_.beginWays(bodies_, tasks_);
-    if (!motion_.toMidpoint(bodies_, Real(0.5) * h, world_.clock.lastSubstepSize == h, tasks_)) return;
-    contacts_.keepSides(bodies_, tasks_);
-    putJointsRight();
-}
-
-/// They show the state between two midpoints.
-template <class S>
-void Step<S>::toEnd() {
-    const Real h = state_.substepSize;
-    std::span<const Velocity<S>> way = motion_.used();
-    if (method_.style.positions) {
-        state_.way.resize(bodies_.size());
-        for (std::size_t i = 0; i < bodies_.size(); ++i) {
-            const Velocity<S>& moved = state_.positions.motion[i];
-            state_.way[i] = {typename S::Vec(moved.v / h), Ang(moved.w / h)};
-        }
-        way = state_.way;
-    }
-    motion_.toEnd(bodies_, way, Real(0.5) * h, tasks_);
-    putJointsRight();
-    if (algorithms_.locatesImpacts) endFlights();
-}
-
-/// Position correction of joints alone, where the bodies are. Errors are of the order h^2: two iterations of
-/// Newton's method leave h^8.
-template <class S>
-void Step<S>::putJointsRight() {
-    if (joints_.records().empty() || method_.style.ownsCorrection) return;
-    state_.still.assign(bodies_.size(), Velocity<S>{});
-    StepPositions<S> positions(bodies_, joints_, state_.noContacts, state_.still, state_.substepSize, Real(0),
-                               state_.positions);
-    algorithms_.correction->correct(positions, std::min(def_.positionIterations, 2), def_.slop);
-}
-
-template <class S>
 void Step<S>::findPairs() {
-    if (motion_.isAtMidpoint()) toMidpoint();
+    if (motion_.isAtMidpoint()) toMidpoints();
     ContinuousCollision<S>& ccd = *algorithms_.ccd;
     BroadPhase<S>& broadPhase = *algorithms_.broadPhase;
     ccd.predict(bodies_, contacts_.shapes().records(), def_.gravity, state_.size);
@@ -225,9 +152,10 @@ ContactStep<S> Step<S>::contactStep() const {
             std::max(def_.restitutionThreshold, Real(2) * gravityStep),
             biasRule(),
             def_.slop,
-            def_.gapSlop,
+            motion_.isAtMidpoint() ? Real(0) : def_.gapSlop,
             def_.warmStarting && state_.lastSubstepSize > 0 ? h / state_.lastSubstepSize : Real(0),
             algorithms_.restitution->bounces(),
+            motion_.isAtMidpoint() && !method_.style.positions,
             state_.islands};
 }
 
@@ -285,8 +213,8 @@ void Step<S>::solveVelocities(int iterations, bool warmStarted) {
         def_.velocityTolerance > 0
             ? std::max(def_.velocityTolerance * h * def_.gravity.norm(), std::numeric_limits<Real>::epsilon())
             : Real(0);
-    StepMonitor<S> monitor(joints_, bodies_, state_.jointStep, rows_, converged, def_.measureResiduals,
-                           state_.observer, state_.residuals);
+    StepMonitor<S> monitor(joints_, contactModel_, bodies_, state_.jointStep, rows_, converged,
+                           def_.measureResiduals, state_.observer, state_.residuals);
     SolverInput<S> input{rows_,       bodies_.velocity,       algorithms_.friction,  monitor, iterations, h,
                          warmStarted, def_.residualTolerance, def_.pyramidDirections};
     const bool mayRestart = state_.jointStep.relinearized && contactModel_.canRestart();
@@ -338,8 +266,8 @@ void Step<S>::relax() {
 template <class S>
 void Step<S>::solvePositions() {
     const Real h = state_.substepSize;
-    StepMonitor<S> monitor(joints_, bodies_, state_.jointStep, rows_, Real(0), def_.measureResiduals,
-                           state_.observer, state_.residuals);
+    StepMonitor<S> monitor(joints_, contactModel_, bodies_, state_.jointStep, rows_, Real(0),
+                           def_.measureResiduals, state_.observer, state_.residuals);
     StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h,
                                std::numeric_limits<Real>::infinity(), state_.positions);
     state_.jointStep.relinearized = false;
@@ -405,7 +333,6 @@ void Step<S>::advanceContacts() {
     template void Step<S>::relax();          \
     template void Step<S>::solvePositions(); \
     template void Step<S>::correct();        \
-    template void Step<S>::toEnd();          \
     template SleepStep<S> Step<S>::sleepStep();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

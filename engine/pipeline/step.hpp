@@ -15,6 +15,13 @@
 
 namespace rigor::engine {
 
+/// Way of a body from where the step began to where its contacts were found.
+template <class S>
+struct Lead {
+    Pose<S> start;
+    Velocity<S> motion;  ///< translation [m], rotation vector [rad]
+};
+
 /// Data that a step keeps from stage to stage. None of it decides the future of a world between steps.
 template <class S>
 struct StepState {
@@ -38,6 +45,7 @@ struct StepState {
     PositionScratch<S> positions;
     ConstraintRows<S> noContacts;         ///< always empty
     std::vector<Velocity<S>> still, way;  ///< zero; velocities of each body in the last sub-step
+    std::vector<Lead<S>> leads;           ///< of integrators that step from midpoint to midpoint
     FlightImpacts<S> flights;
     std::vector<std::uint8_t> bound;  ///< bodies that joints hold or forces act on
     // --- what the result refers to
@@ -86,7 +94,7 @@ class Step {
     void beginIslands();
     void pauseOthers();
     std::span<const std::uint8_t> pausedBodies() const;
-    void placeKinematic(int substeps);
+    void placeKinematic(int substeps, Real later = 0);
     void resume(std::uint32_t body);
     void endIslands();
     void sortImpacts();
@@ -104,9 +112,17 @@ class Step {
     void correct();
 
     // --- data shared by them
-    void toMidpoint();
+    // step_midpoints.cpp
+    void toMidpoints();
+    Real halfOf(IslandSize islands) const;
+    void measureLead(std::size_t body);
+    void changeHalves(std::span<const IslandSize> before);
+    void moveContact(Contact<S>& contact, const typename S::Vec& pA, const Velocity<S>& a,
+                     const typename S::Vec& pB, const Velocity<S>& b) const;
     void toEnd();
+    void releaseBroken();
     void putJointsRight();
+    void showContacts();
     void beginFlights();
     void endFlights();
     ContactStep<S> contactStep() const;

@@ -47,7 +47,8 @@ template <class S>
 bool allowsLargeIslands(const WorldDef<S>& def, const StepAlgorithms<S>& chosen) {
     return chosen.fault == nullptr && frictionShape(def.friction) == FrictionShape::Cone &&
            !chosen.restitution->solvesImpacts() && !def.measureResiduals &&
-           !chosen.usual.motion.isAtMidpoint();
+           // Continuous collision of two halves of a step needs both at one time.
+           !(chosen.usual.motion.isAtMidpoint() && continuousCollisionTraits(def.continuousCollision).acts);
 }
 
 template <class S>

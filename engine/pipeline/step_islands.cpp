@@ -40,10 +40,7 @@ void Step<S>::sortIslands() {
         sort.large[k] = c.contacts > most || (2 * c.large > c.contacts && 2 * c.contacts > most);
         any = any || sort.large[k];
     }
-    if (any) {
-        joinByForces(islands);
-        sort.startPoses.assign(bodies_.pose.begin(), bodies_.pose.end());
-    }
+    if (any) joinByForces(islands);
     state_.anyUsual = state_.anyLarge = false;
     for (std::size_t k = 0; k < islands.count(); ++k)
         if (!bodies_.asleep[islands.members(k).front()])
@@ -66,6 +63,7 @@ void Step<S>::sortIslands() {
             impulse.friction *= factorTo(size);
         }
     }
+    sort.before.assign(bodies_.islands.begin(), bodies_.islands.end());
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) bodies_.islands[i] = sizeOf(i, i);
     for (auto& record : joints_.records()) {
         const IslandSize size = sizeOf(record.joint.a, record.joint.b);
@@ -73,6 +71,8 @@ void Step<S>::sortIslands() {
         record.islands = size;
         for (Real& impulse : record.impulse) impulse *= factorTo(size);
     }
+    changeHalves(sort.before);
+    if (any) sort.startPoses.assign(bodies_.pose.begin(), bodies_.pose.end());
 }
 
 /// Islands that forces connect are of one size: each end sees the other where it is at the same time.
@@ -99,6 +99,9 @@ void Step<S>::beginIslands() {
     if (state_.islands == IslandSize::Large)
         state_.lastSubstepSize *= Real(algorithms_.usual.substeps) / Real(method_.substeps);
     motion_.beginStep();
+    if (state_.islands == IslandSize::Large)
+        placeKinematic(
+            0, motion_.isAtMidpoint() ? halfOf(IslandSize::Large) - halfOf(IslandSize::Usual) : Real(0));
     if (!state_.anyUsual || !state_.anyLarge) return;
     pauseOthers();
     // Kinematic bodies take part with both sizes, each time from where they were.
@@ -107,15 +110,16 @@ void Step<S>::beginIslands() {
         if (contact.islands == IslandSize::Usual) contact.block.fill(kNullIndex);
 }
 
-/// Puts kinematic bodies where so many sub-steps of the usual method have taken them.
+/// Puts kinematic bodies where so many sub-steps of the usual method have taken them, and `later` [s] more.
 template <class S>
-void Step<S>::placeKinematic(int substeps) {
+void Step<S>::placeKinematic(int substeps, Real later) {
     const Real h = state_.size / Real(algorithms_.usual.substeps);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         if (bodies_.constants[i].type != BodyType::Kinematic) continue;
         bodies_.pose[i] = state_.sort.startPoses[i];
         for (int k = 0; k < substeps; ++k)
             algorithms_.usual.motion.carry(bodies_.pose[i], bodies_.velocity[i], h);
+        if (later != 0) algorithms_.usual.motion.carry(bodies_.pose[i], bodies_.velocity[i], later);
     }
 }
 

@@ -8,7 +8,7 @@ template <class S>
 StepPositions<S>::StepPositions(BodyArrays<S>& bodies, const JointSet<S>& joints,
                                 const ConstraintRows<S>& rows, std::span<const Velocity<S>> used, Real h,
                                 Real separating, PositionScratch<S>& scratch)
-    : bodies_(bodies), joints_(joints), rows_(rows), scratch_(scratch) {
+    : bodies_(bodies), joints_(joints), rows_(rows), scratch_(scratch), h_(h) {
     const std::size_t n = bodies.size();
     scratch.motion.resize(n);
     scratch.turn.assign(n, zeroAng<S>());
@@ -36,36 +36,44 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
     out.block.rows = 0;
     out.count = 0;
     if (bodies_.invMass[a] == 0 && bodies_.invMass[b] == 0) return;  // asleep
+    if (record.islands == IslandSize::Large) return;                 // their joints are linearised
     record.evaluate(record.joint, bodies_.pose[a], bodies_.pose[b], made);
     out.block.kind = BlockKind::Joint;
     out.block.a = a;
     out.block.b = b;
     out.block.invMassA = bodies_.invMass[a];
     out.block.invMassB = bodies_.invMass[b];
-    out.block.rows = static_cast<std::uint8_t>(made.equalities);
-    out.count = 0;
+    const auto isHeld = [&](std::size_t i) {
+        if (made.law[i].role == RowRole::Equality) return true;
+        return holdsMotors_ && made.law[i].role == RowRole::Motor && out.count < kMaxJointRows &&
+               std::abs(record.impulse[i]) < h_ * made.law[i].maxForce;
+    };
     const auto turned = [&](std::uint32_t body, const typename S::Ang& ang) {
         return bodies_.invMass[body] > 0
                    ? typename S::Ang(worldInertia<S>(bodies_.pose[body].q, bodies_.invInertiaLocal[body]) *
                                      ang)
                    : zeroAng<S>();
     };
-    for (std::size_t i = 0; i < static_cast<std::size_t>(made.count); ++i) {
-        const RowRole role = made.law[i].role;
-        if (role != RowRole::Equality && role != RowRole::Limit) continue;
+    const auto add = [&](std::size_t i) {
         const auto place = static_cast<std::size_t>(out.count++);
         Row<S>& row = out.row[place];
         row = made.row[i];
-        row.error = made.error[i];
+        row.error = made.law[i].role == RowRole::Motor ? Real(0) : made.error[i];
         row.invIAngA = turned(a, row.angA);
         row.invIAngB = turned(b, row.angB);
         row.softness = 0;
         const Real K = rowK<S>(row, out.block);
         row.invK = K > 0 ? Real(1) / K : Real(0);
-        out.unilateral[place] = role == RowRole::Limit;
+        out.unilateral[place] = made.law[i].role == RowRole::Limit;
         out.velocityRow[place] = record.firstRow + static_cast<std::uint32_t>(i);
-    }
-    if (made.equalities > 0) invertBlock<S>(out.row.data(), out.block, out.inverseK);
+    };
+    const auto count = static_cast<std::size_t>(made.count);
+    for (std::size_t i = 0; i < count; ++i)
+        if (isHeld(i)) add(i);
+    out.block.rows = static_cast<std::uint8_t>(out.count);
+    for (std::size_t i = 0; i < count; ++i)
+        if (made.law[i].role == RowRole::Limit) add(i);
+    if (out.block.rows > 0) invertBlock<S>(out.row.data(), out.block, out.inverseK);
 }
 
 template <class S>

@@ -35,6 +35,9 @@ class StepPositions final : public PositionProblem<S> {
     StepPositions(BodyArrays<S>& bodies, const JointSet<S>& joints, const ConstraintRows<S>& rows,
                   std::span<const Velocity<S>> used, Real h, Real separating, PositionScratch<S>& scratch);
 
+    /// Coordinates that a motor drives, and has the force for, are held where they are.
+    void holdMotors() { holdsMotors_ = true; }
+
     std::size_t jointCount() const override { return joints_.records().size(); }
     void evaluateJoint(std::size_t index, JointPositions<S>& out) const override;
     std::size_t contactCount() const override { return scratch_.contacts.size(); }
@@ -56,6 +59,8 @@ class StepPositions final : public PositionProblem<S> {
     const JointSet<S>& joints_;
     const ConstraintRows<S>& rows_;
     PositionScratch<S>& scratch_;
+    Real h_;  ///< size of the step [s]
+    bool holdsMotors_ = false;
 };
 
 }  // namespace rigor::engine

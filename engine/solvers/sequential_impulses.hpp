@@ -9,7 +9,7 @@
 //     joint     lambda += -K^-1 (J v + bias + softness lambda)
 //     bounded   lambda := clamp(lambda - (J v + bias + softness lambda) / K, lower, upper)
 //     normal    lambda_n := max(0, lambda_n - (J_n v + bias + softness lambda_n) / K_nn)
-//     friction  lambda_t := friction law with limit mu lambda_n, both tangents at once
+//     friction  lambda_t := friction law on J_t v + bias with limit mu lambda_n, both tangents at once
 // It is the accumulated impulse that is clamped, not its increment [Catto2005].
 #pragma once
 
@@ -107,7 +107,7 @@ typename S::Real solveFriction(const SolverInput<S>& input, const Block<S>& bloc
     Vec2 impulse = Vec2::Zero(), velocity = Vec2::Zero();
     for (int i = 0; i < tangents; ++i) {
         impulse[i] = rows[1 + i].impulse;
-        velocity[i] = rowVelocity<S>(rows[1 + i], a, b);
+        velocity[i] = rowVelocity<S>(rows[1 + i], a, b) + rows[1 + i].bias;
     }
     const Vec2 next = contactFriction<S>(input.friction, block, impulse, velocity, rows[0].impulse);
     Real residual = 0;

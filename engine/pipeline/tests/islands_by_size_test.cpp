@@ -20,11 +20,14 @@ using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(IslandsBySize, Spaces);
 
 constexpr double kStep = 1.0 / 60;
+constexpr const char* kIntegrators[] = {"symplectic_euler", "moreau_midpoint"};
 
 template <class S>
-WorldDef<S> byIsland(int contacts = 6, const std::string& solver = "by_island") {
+WorldDef<S> byIsland(int contacts = 6, const std::string& solver = "by_island",
+                     const std::string& integrator = "symplectic_euler") {
     WorldDef<S> def = earth<S>();
     def.solver = solver;
+    def.integrator = integrator;
     def.islandContacts = contacts;
     return def;
 }
@@ -91,9 +94,9 @@ void expectSamePose(const Scene<S>& scene, std::size_t i, const Scene<S>& other,
 }
 
 template <class S>
-void expectBothMoveAlone(const std::string& continuousCollision) {
+void expectBothMoveAlone(const std::string& continuousCollision, const std::string& integrator) {
     const auto def = [&](const std::string& solver) {
-        WorldDef<S> made = byIsland<S>(6, solver);
+        WorldDef<S> made = byIsland<S>(6, solver, integrator);
         made.continuousCollision = continuousCollision;
         return made;
     };
@@ -125,12 +128,12 @@ void expectBothMoveAlone(const std::string& continuousCollision) {
         if (contact.bodyA == both.ground) load += static_cast<double>(contact.normalImpulse);
     EXPECT_GT(load, 0.5 * kStep * kGravity * 15) << "the ground carries all boxes";
 }
-
 TYPED_TEST(IslandsBySize, EitherMovesAsWithoutTheOther) {
     for (const std::string choice : {"none", "conservative_advancement", "speculative"}) {
         SCOPED_TRACE(choice);
-        expectBothMoveAlone<TypeParam>(choice);
+        expectBothMoveAlone<TypeParam>(choice, "symplectic_euler");
     }
+    expectBothMoveAlone<TypeParam>("none", "moreau_midpoint");
 }
 
 /// Large islands are another method: the same scene with `block` alone goes another way.
@@ -144,16 +147,16 @@ TYPED_TEST(IslandsBySize, LargeOnesAreSolvedOtherwise) {
     for (std::size_t k = 0; k < block.bodies.size(); ++k) expectSamePose(above, k, block, k, 30);
 }
 
-TYPED_TEST(IslandsBySize, SnapshotsAndStagesGoTheSameWay) {
-    using S = TypeParam;
+template <class S>
+void expectSameStages(const std::string& integrator) {
     using R = typename S::Real;
-    Scene<S> scene(byIsland<S>());
+    Scene<S> scene(byIsland<S>(6, "by_island", integrator));
     scene.addFew();
     scene.addMany();
     for (int i = 0; i < 20; ++i) scene.step(i);
     std::vector<unsigned char> bytes;
     scene.world.saveSnapshot(bytes);
-    Scene<S> restored(byIsland<S>());
+    Scene<S> restored(byIsland<S>(6, "by_island", integrator));
     restored.addFew();
     restored.addMany();
     restored.world.restoreSnapshot(bytes);
@@ -162,6 +165,12 @@ TYPED_TEST(IslandsBySize, SnapshotsAndStagesGoTheSameWay) {
         restored.world.beginStep(R(kStep));
         while (restored.world.stepping()) restored.world.runPhase();
         ASSERT_EQ(scene.world.stateHash(), restored.world.stateHash()) << "step " << i;
+    }
+}
+TYPED_TEST(IslandsBySize, SnapshotsAndStagesGoTheSameWay) {
+    for (const char* integrator : kIntegrators) {
+        SCOPED_TRACE(integrator);
+        expectSameStages<TypeParam>(integrator);
     }
 }
 
@@ -196,16 +205,18 @@ std::pair<double, double> growColumn(const WorldDef<S>& def) {
 /// soft contacts carry them, more slowly than one step of free fall would let them.
 TYPED_TEST(IslandsBySize, ChangeTheirMethodWithoutAJolt) {
     using S = TypeParam;
-    const auto [fastest, load] = growColumn<S>(byIsland<S>(8));
-    EXPECT_LT(fastest, kStep * kGravity);
-    EXPECT_NEAR(load, 1, 2e-3);
+    for (const char* integrator : kIntegrators) {
+        const auto [fastest, load] = growColumn<S>(byIsland<S>(8, "by_island", integrator));
+        EXPECT_LT(fastest, kStep * kGravity) << integrator;
+        EXPECT_NEAR(load, 1, 2e-3) << integrator;
+    }
 }
 
 /// A spring between two islands sees both ends at the same time: it adds no momentum.
-TYPED_TEST(IslandsBySize, ForcesJoinThem) {
-    using S = TypeParam;
+template <class S>
+void expectMomentumOfSpring(const std::string& integrator) {
     using R = typename S::Real;
-    WorldDef<S> def = byIsland<S>(1);
+    WorldDef<S> def = byIsland<S>(1, "by_island", integrator);
     def.gravity.setZero();
     Scene<S> scene(def);
     std::vector<BodyId> bodies;
@@ -226,6 +237,33 @@ TYPED_TEST(IslandsBySize, ForcesJoinThem) {
         }
         ASSERT_NEAR(momentum, 0, tol<S>(1e-6, 1e-5) * std::max(speed, 1.0)) << "step " << i;
     }
+}
+TYPED_TEST(IslandsBySize, ForcesJoinThem) {
+    for (const char* integrator : kIntegrators) {
+        SCOPED_TRACE(integrator);
+        expectMomentumOfSpring<TypeParam>(integrator);
+    }
+}
+
+/// Boxes that fall as one island, which is large from when they meet: they go on as they fell.
+TYPED_TEST(IslandsBySize, FallingOnesKeepTheirWay) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    Scene<S> scene(byIsland<S>(6, "by_island", "moreau_midpoint"));
+    std::vector<BodyId> boxes;
+    for (int i = 0; i < 6; ++i) boxes.push_back(addCube<S>(scene.world, 0.5 * i, 60, 0.25, 1, scene.stone));
+    for (int i = 0; i < 6; ++i) {
+        boxes.push_back(addCube<S>(scene.world, 0.5 * i, 60.6, 0.25, 1, scene.stone));
+        scene.world.setVelocity(boxes.back(), at<S>(0, -0.5), spin<S>(0));
+    }
+    for (int i = 0; i < 60; ++i) scene.world.step(R(kStep));
+    double height = 0, speed = 0;
+    for (const BodyId box : boxes) {
+        height += static_cast<double>(scene.world.pose(box).p[1]) / 12;
+        speed += static_cast<double>(scene.world.velocity(box)[1]) / 12;
+    }
+    EXPECT_NEAR(height, 60.3 - 0.25 - 0.5 * kGravity, 0.4 * kStep * kGravity);
+    EXPECT_NEAR(speed, -0.25 - kGravity, 1e-4);
 }
 
 /// A row of cubes that touch, without gravity, and a ball; one of the two flies at the other, by ten times its size in a

@@ -267,6 +267,53 @@ TYPED_TEST(SecondOrder, AWeightOnAJointSpringSwings) {
     EXPECT_NEAR(orderAgainst(state, "symplectic_euler", t, exact, {720, 1440, 2880}), 1, 0.1);
 }
 
+/// A block that is launched across a slope: friction turns with its way.
+TEST(SecondOrderInSpace, ABlockSlidesOnACurve) {
+    using S = Space3d;
+    const auto state = [](const std::string& integrator, int steps) {
+        WorldDef<S> def = earthWith<S>(integrator);
+        def.gravity = {4.2, -8.7, 0};
+        World<S> world(def);
+        const auto wood = world.addMaterial(0.4, 0);
+        addGround<S>(world, wood);
+        BodyDef<S> body;
+        body.mass = 1;
+        body.inertia = isotropic<S>(0.04);
+        body.pose.p = {0, 0.02, 0};
+        body.velocity = {0, 0, 2};
+        const BodyId block = world.addBody(body);
+        attach<S>(world, block, Box<S>{{0.25, 0.02, 0.25}}, wood);
+        runSteps(world, 1, steps);
+        return placesAndVelocities(world, {block});
+    };
+    const std::vector<int> steps{60, 120, 240, 480};
+    EXPECT_NEAR(orderBetweenRuns(state, "moreau_midpoint", 1, steps), 2, 0.1);
+    EXPECT_NEAR(orderBetweenRuns(state, "symplectic_euler", 1, steps), 1, 0.1);
+}
+
+/// A ball with side spin: its slip keeps its direction, so that the ball goes along a parabola, which is exact.
+TEST(SecondOrderInSpace, ABallWithSideSpinSlips) {
+    using S = Space3d;
+    const auto state = [](const std::string& integrator, int steps) {
+        World<S> world(earthWith<S>(integrator));
+        const auto felt = world.addMaterial(0.15, 0);
+        addGround<S>(world, felt);
+        BodyDef<S> def;
+        def.mass = 1;
+        def.inertia = isotropic<S>(0.4 * 0.1 * 0.1);
+        def.pose.p = {0, 0.1, 0};
+        def.velocity = {3, 0, 0.5};
+        def.angularVelocity = {30, 5, 10};
+        const BodyId ball = world.addBody(def);
+        attach<S>(world, ball, Sphere<S>{0.1}, felt);
+        runSteps(world, 0.5, steps);
+        return placesAndVelocities(world, {ball});
+    };
+    for (const int steps : {30, 77})
+        EXPECT_LT((state("moreau_midpoint", steps) - state("moreau_midpoint", 960)).norm(), 1e-9) << steps;
+    EXPECT_NEAR(orderBetweenRuns(state, "symplectic_euler", 0.5, {60, 120, 240, 480}), 1, 0.1);
+}
+
 // --- impacts
 // ------------------------------------------------------------------------------------------------------
 /// A ball that bounces, 4 or 5 times in 1.9 s: exact at every step size.

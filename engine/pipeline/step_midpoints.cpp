@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Steps from midpoint to midpoint (integrators/moreau_midpoint.cpp): the way to the midpoints before everything
+// else, the way back to the end of the step after it, and what the world shows of a step whose contacts and
+// joints acted in its middle.
+#include "engine/pipeline/step.hpp"
+
+namespace rigor::engine {
+namespace {
+
+/// Rotation from q to p as a vector, to third order in its angle [rad].
+template <class R>
+R smallTurn(const Rot2<R>& q, const Rot2<R>& p) {
+    return compose(p, inverse(q)).s;
+}
+template <class R>
+Eigen::Matrix<R, 3, 1> smallTurn(const Eigen::Quaternion<R>& q, const Eigen::Quaternion<R>& p) {
+    const Eigen::Quaternion<R> turn = compose(p, inverse(q));
+    return (turn.w() < R(0) ? R(-2) : R(2)) * turn.vec();
+}
+
+}  // namespace
+
+template <class S>
+void Step<S>::beginFlights() {
+    std::vector<std::uint8_t>& bound = state_.bound;
+    bound.assign(bodies_.size(), 0);
+    for (const auto& record : joints_.records()) bound[record.joint.a] = bound[record.joint.b] = 1;
+    for (const auto& record : world_.forces.records()) bound[record.place.a] = bound[record.place.b] = 1;
+    // A contact that has pressed a body in the last step goes on to do so. Its normal may have turned since.
+    for (const Contact<S>& contact : contacts_.list())
+        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+            if (contact.impulses[i].normal > 0 && !contact.points[i].impact)
+                bound[contact.bodyA] = bound[contact.bodyB] = 1;
+    state_.flights.begin(bodies_, bound, Real(0.5) * state_.substepSize);
+}
+
+/// Bodies that have collided in flight go to where that takes them.
+template <class S>
+void Step<S>::endFlights() {
+    const MovedWorld<S> world{bodies_,
+                              contacts_,
+                              motion_,
+                              *algorithms_.narrowPhase,
+                              algorithms_.friction,
+                              def_.restitutionThreshold,
+                              state_.size,
+                              Real(0)};
+    result_.unlocatedImpacts =
+        state_.flights.resolve(world, algorithms_.restitution->bounces(), state_.impacts);
+    if (!state_.flights.anyHasCollided()) return;
+    for (Contact<S>& contact : contacts_.list()) {
+        if (!state_.flights.hasCollided(contact.bodyA) && !state_.flights.hasCollided(contact.bodyB))
+            continue;
+        contact.impulses.fill({});
+        contact.totals.fill({});
+    }
+}
+
+/// Time from the end of a step to the midpoint of an island's first sub-step.
+template <class S>
+typename S::Real Step<S>::halfOf(IslandSize islands) const {
+    return Real(0.5) * state_.size / Real(algorithms_.method(islands).substeps);
+}
+
+/// Integrators that step from midpoint to midpoint begin there.
+template <class S>
+void Step<S>::toMidpoints() {
+    const Real h = state_.substepSize;
+    if (algorithms_.locatesImpacts) beginFlights();
+    contacts_.beginWays(bodies_, tasks_);
+    state_.leads.resize(bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) state_.leads[i].start = bodies_.pose[i];
+    const PerIslandSize<Real> half{halfOf(IslandSize::Usual),
+                                   algorithms_.large ? halfOf(IslandSize::Large) : Real(0)};
+    if (motion_.toMidpoint(bodies_, half, world_.clock.lastSubstepSize == h, tasks_)) {
+        contacts_.keepSides(bodies_, tasks_);
+        putJointsRight();
+    }
+    tasks_.forEach(bodies_.size(), kBodyGrain, [this](std::size_t i) { measureLead(i); });
+}
+
+template <class S>
+void Step<S>::measureLead(std::size_t i) {
+    Lead<S>& lead = state_.leads[i];
+    lead.motion = {};
+    if (bodies_.constants[i].type == BodyType::Static || bodies_.asleep[i]) return;
+    lead.motion.v = bodies_.pose[i].p - lead.start.p;
+    lead.motion.w = smallTurn(lead.start.q, bodies_.pose[i].q);
+}
+
+/// Islands whose size has changed go to the midpoints of their new sub-steps, and their contacts with them.
+/// Large islands meet kinematic bodies there, too.
+template <class S>
+void Step<S>::changeHalves(std::span<const IslandSize> before) {
+    if (!motion_.isAtMidpoint()) return;
+    std::vector<Velocity<S>>& moved = state_.way;
+    moved.assign(bodies_.size(), Velocity<S>{});
+    const Real later = halfOf(IslandSize::Large) - halfOf(IslandSize::Usual);
+    bool any = false;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const bool kinematic = bodies_.constants[i].type == BodyType::Kinematic;
+        if (kinematic)
+            moved[i] = {typename S::Vec(later * bodies_.velocity[i].v), Ang(later * bodies_.velocity[i].w)};
+        any = any || kinematic;
+        if (bodies_.islands[i] == before[i] || bodies_.invMass[i] == 0) continue;
+        any = true;
+        const Pose<S> from = bodies_.pose[i];
+        motion_.coast(bodies_, i, bodies_.islands[i] == IslandSize::Large ? later : -later);
+        moved[i] = {typename S::Vec(bodies_.pose[i].p - from.p), smallTurn(from.q, bodies_.pose[i].q)};
+        measureLead(i);
+    }
+    if (!any) return;
+    for (Contact<S>& contact : contacts_.list()) {
+        const auto motionOf = [&](std::uint32_t i) {
+            const bool stays =
+                bodies_.constants[i].type == BodyType::Kinematic && contact.islands == IslandSize::Usual;
+            return stays ? Velocity<S>{} : moved[i];
+        };
+        const Velocity<S> a = motionOf(contact.bodyA), b = motionOf(contact.bodyB);
+        const auto at = [&](std::uint32_t i, const Velocity<S>& motion) {
+            const bool kinematic = bodies_.constants[i].type == BodyType::Kinematic;
+            return typename S::Vec(kinematic ? bodies_.pose[i].p : bodies_.pose[i].p - motion.v);
+        };
+        moveContact(contact, at(contact.bodyA, a), a, at(contact.bodyB, b), b);
+    }
+}
+
+/// Moves the points of a contact with its bodies, which are at pA, pB before. Both points move without
+/// rotation, and then along the normal, so that the arms of round bodies that roll stay as they are.
+template <class S>
+void Step<S>::moveContact(Contact<S>& contact, const typename S::Vec& pA, const Velocity<S>& a,
+                          const typename S::Vec& pB, const Velocity<S>& b) const {
+    const typename S::Vec& n = contact.manifold.normal;
+    const bool movesA = bodies_.invMass[contact.bodyA] > 0, movesB = bodies_.invMass[contact.bodyB] > 0;
+    const Real shareB = movesA && movesB ? Real(0.5) : movesA ? Real(0) : Real(1);
+    for (int i = 0; i < contact.manifold.count; ++i) {
+        ManifoldPoint<S>& point = contact.manifold.points[i];
+        const Real turned = n.dot(cross(b.w, typename S::Vec(point.pointB - pB)) -
+                                  cross(a.w, typename S::Vec(point.pointA - pA)));
+        point.separation += turned + n.dot(b.v - a.v);
+        point.pointA += a.v - ((Real(1) - shareB) * turned) * n;
+        point.pointB += b.v + (shareB * turned) * n;
+    }
+    contact.placed = false;
+}
+
+/// They show the state between two midpoints.
+template <class S>
+void Step<S>::toEnd() {
+    if (state_.anyUsual) releaseBroken();
+    const Real h = state_.substepSize;
+    std::span<const Velocity<S>> way = motion_.used();
+    if (method_.style.positions) {
+        state_.way.resize(bodies_.size());
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            const Velocity<S>& moved = state_.positions.motion[i];
+            state_.way[i] = {typename S::Vec(moved.v / h), Ang(moved.w / h)};
+        }
+        way = state_.way;
+    }
+    motion_.toEnd(bodies_, IslandSize::Usual, way, halfOf(IslandSize::Usual), tasks_);
+    if (state_.anyLarge)
+        algorithms_.large->motion.toEnd(bodies_, IslandSize::Large, algorithms_.large->motion.used(),
+                                        halfOf(IslandSize::Large), tasks_);
+    putJointsRight();
+    showContacts();
+    if (algorithms_.locatesImpacts) endFlights();
+}
+
+/// A joint that breaks does so when the step begins: its last impulses are taken back.
+template <class S>
+void Step<S>::releaseBroken() {
+    if (method_.style.positions) return;
+    const Real h = state_.substepSize;
+    world_.joints.findOverloaded(h * Real(method_.substeps), state_.broken);
+    for (const JointId id : state_.broken) {
+        const typename JointSet<S>::Record& record = world_.joints.record(id);
+        if (record.islands != IslandSize::Usual || record.rows == 0) continue;
+        const std::uint32_t a = record.joint.a, b = record.joint.b;
+        const Velocity<S> beforeA = bodies_.velocity[a], beforeB = bodies_.velocity[b];
+        Block<S> block;
+        block.invMassA = bodies_.invMass[a];
+        block.invMassB = bodies_.invMass[b];
+        for (std::uint32_t i = record.firstRow; i < record.firstRow + record.rows; ++i)
+            applyRowImpulse<S>(rows_.rows[i], block, -rows_.rows[i].impulse, bodies_.velocity[a],
+                               bodies_.velocity[b]);
+        for (const auto& [body, before] : {std::pair{a, beforeA}, std::pair{b, beforeB}}) {
+            if (bodies_.invMass[body] == 0) continue;
+            const Velocity<S>& now = bodies_.velocity[body];
+            const Velocity<S> change{typename S::Vec(now.v - before.v), Ang(now.w - before.w)};
+            const Velocity<S>& used = motion_.used()[body];
+            motion_.carry(bodies_.pose[body], change, h);
+            motion_.replaceUsed(body, {typename S::Vec(used.v + change.v), Ang(used.w + change.w)});
+        }
+    }
+}
+
+/// Position correction of joints alone, where the bodies are. Errors are of the order h^2: two iterations of
+/// Newton's method leave h^8. Motors that reach their speed keep the coordinates that it has led to.
+template <class S>
+void Step<S>::putJointsRight() {
+    if (joints_.records().empty() || method_.style.ownsCorrection) return;
+    state_.still.assign(bodies_.size(), Velocity<S>{});
+    StepPositions<S> positions(bodies_, joints_, state_.noContacts, state_.still, state_.substepSize, Real(0),
+                               state_.positions);
+    positions.holdMotors();
+    algorithms_.correction->correct(positions, std::min(def_.positionIterations, 2), def_.slop);
+}
+
+/// Contacts are shown where the step began, with the arms that their impulses had.
+template <class S>
+void Step<S>::showContacts() {
+    ContactList<S>& contacts = contacts_.list();
+    tasks_.forEach(contacts.size(), kBodyGrain, [&](std::size_t k) {
+        Contact<S>& contact = contacts[k];
+        const auto back = [&](std::uint32_t i) {
+            const Velocity<S>& lead = state_.leads[i].motion;
+            const bool earlier =
+                contact.islands == IslandSize::Large && bodies_.constants[i].type == BodyType::Kinematic;
+            const Real share = earlier ? -halfOf(IslandSize::Large) / halfOf(IslandSize::Usual) : Real(-1);
+            return Velocity<S>{typename S::Vec(share * lead.v), Ang(share * lead.w)};
+        };
+        const Velocity<S> a = back(contact.bodyA), b = back(contact.bodyB);
+        moveContact(contact, state_.leads[contact.bodyA].start.p - a.v, a,
+                    state_.leads[contact.bodyB].start.p - b.v, b);
+    });
+}
+
+#define RIGOR_INSTANTIATE(S)                                          \
+    template void Step<S>::toMidpoints();                             \
+    template typename S::Real Step<S>::halfOf(IslandSize) const;      \
+    template void Step<S>::changeHalves(std::span<const IslandSize>); \
+    template void Step<S>::toEnd();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine
