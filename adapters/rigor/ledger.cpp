@@ -210,11 +210,21 @@ class Ledger {
     }
 
     void addContacts() {
-        add("contact_margin", "0",
-            "none in the shapes; resting contacts are found within " + text("speculative_distance") +
-                " m and may just close the gap; below " + text("gap_slop") + " m it counts as closed",
-            "an inelastic impact takes place at the end of the step that would close the gap, up to that far "
-            "early");
+        const std::string margin =
+            "none in the shapes; resting contacts are found within " + text("speculative_distance") + " m";
+        if (integrator_.scheme == engine::FlightScheme::MoreauMidpoint &&
+            solver_.contacts == engine::ContactForm::Rows)
+            add("contact_margin", "0",
+                margin +
+                    ", others as far ahead as two shapes may come near each other in a step, up to their "
+                    "size, and may just close the gap",
+                "an inelastic impact of a body that others hold takes place up to a step early; a body that "
+                "passes another nearer than that may be deflected");
+        else
+            add("contact_margin", "0",
+                margin + " and may just close the gap; below " + text("gap_slop") + " m it counts as closed",
+                "an inelastic impact takes place at the end of the step that would close the gap, up to that "
+                "far early");
         if (areSprings()) {
             const Vec3& g = scenario_.gravity;
             const double omega = 2.0 * std::numbers::pi * springFrequency("contact_frequency");

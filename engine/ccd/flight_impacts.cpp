@@ -109,12 +109,15 @@ int FlightImpacts<S>::resolve(const MovedWorld<S>& world, bool bounces, std::vec
 
 template <class S>
 void FlightImpacts<S>::tumble(const MovedWorld<S>& world) {
+    const bool inSubsteps = Real(4) * half_ < Real(1.5) * world.h;
+    if (inSubsteps) return;  // shorter ways are nearer
     stopped_.assign(world.bodies.size(), 0);
     for (const Contact<S>& contact : world.contacts.list())
         for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
-            if (contact.impulses[i].normal > 0) stopped_[contact.bodyA] = stopped_[contact.bodyB] = 1;
+            if (contact.totals[i].normal > 0) stopped_[contact.bodyA] = stopped_[contact.bodyB] = 1;
     for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
         if (!flying_[i] || stopped_[i] || !tumbles<S>(world.bodies.constants[i].inertia)) continue;
+        if (blocked_[rootOf(i)]) continue;
         goTo(world, i, world.h);
         world.bodies.leaveMidpoint(i);
     }

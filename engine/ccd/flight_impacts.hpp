@@ -15,8 +15,8 @@
 // until the end of the step: with v_h = v + rest a, and impulses that hold the contact and oppose sliding
 // by the law of friction, it moves by rest (v + v_h) / 2.
 //
-// A body in flight that has not collided, nor been stopped by the step, and whose inertia is not that of a
-// sphere, goes its own way from the start to the end of the step: the rotation schemes conserve along it what
+// A body in flight that comes near nothing else, and whose inertia is not that of a sphere, goes its own way
+// from the start to the end of the step, if that has no sub-steps: the rotation schemes conserve along it what
 // they conserve, which the mean of two midpoints does to second order only.
 //
 // A cluster is left to the step as it is, without impacts at their own times, where

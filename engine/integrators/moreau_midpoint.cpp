@@ -20,6 +20,11 @@
 // The midpoint is part of the world's state. It is found anew, q_0 + h/2 v_0, in the first step, where the
 // step size changes, and for a body whose velocity was set.
 //
+// Friction opposes the mean slip (v_0 + v_1)/2 where it slides (RowContacts::updateSlips); a contact sticks where
+// v_1 does. A gap is closed by velocity however small it is: at a midpoint it is what the bodies' turning
+// leaves, as a joint's curvature, and not closing it would lift a body that turns about an edge. Contacts are
+// found as far ahead as bodies move in a step, so that those that others hold reach a midpoint without overlap.
+//
 // Forces that depend on the velocity are evaluated twice, the second time with v_0 + h/2 a(q_M, v_0): order 2
 // where nothing but forces acts. What impulses change of the velocity within the step they do not see.
 #include "engine/integrators/integrator.hpp"

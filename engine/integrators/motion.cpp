@@ -38,13 +38,31 @@ bool Motion<S>::toMidpoint(BodyArrays<S>& bodies, const PerIslandSize<Real>& hal
     return found;
 }
 
+/// Angular velocity in the middle of `time` by Euler's equation at its beginning: what free rotation needs to
+/// be of second order. Where that changes it far, by the rotation scheme.
+template <class S>
+typename S::Ang Motion<S>::halfwayRotation(const BodyArrays<S>& bodies, std::size_t i, Real time) const {
+    const Ang& w = bodies.velocity[i].w;
+    if constexpr (S::dim == 3) {
+        if (!rotation_.gyroscopic) return w;
+        const typename S::Rot& q = bodies.pose[i].q;
+        const Vec own = rotateInverse<Real>(q, w), momentum = bodies.constants[i].inertia * own;
+        const Vec change = (Real(0.5) * time) * Vec(bodies.invInertiaLocal[i] * momentum.cross(own));
+        if (change.squaredNorm() > Real(0.01) * own.squaredNorm())
+            return freeRotation(bodies.constants[i], q, w, time);
+        return rotate(q, Vec(own + change));
+    } else {
+        return w;
+    }
+}
+
 template <class S>
 void Motion<S>::coast(BodyArrays<S>& bodies, std::size_t i, Real time) const {
     Pose<S>& X = bodies.pose[i];
     Velocity<S>& velocity = bodies.velocity[i];
     const typename S::Rot q0 = X.q;
     const bool dynamic = bodies.invMass[i] > 0;
-    const Ang mean = dynamic ? freeRotation(bodies.constants[i], q0, velocity.w, time) : velocity.w;
+    const Ang mean = dynamic ? halfwayRotation(bodies, i, time) : velocity.w;
     X.p += time * velocity.v;
     X.q = turn_(q0, Ang(time * mean));
     if (dynamic) velocity.w = rotatedVelocity(bodies.constants[i], q0, X.q, velocity.w, mean);

@@ -108,6 +108,7 @@ class Motion {
     }
     void kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks);
     void evaluateForces(const BodyArrays<S>& bodies, const Load<S>& load, Real h);
+    Ang halfwayRotation(const BodyArrays<S>& bodies, std::size_t i, Real time) const;
     void moveAlongFlow(BodyArrays<S>& bodies, Real h, const Tasks& tasks);
 
     Integrator<S> integrator_{};

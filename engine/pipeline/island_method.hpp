@@ -36,7 +36,7 @@ struct IslandMethod {
     Real contactFrequency = 0;   ///< frequency of soft contacts [Hz]
     bool relinearizedJoints = true;
     Real cacheTolerance = 0;     ///< WorldDef's setting of that name [m]
-    Real speculativeMotion = 0;  ///< the same
+    Real speculativeMotion = 0;  ///< the same; at least 1 where steps lead from midpoint to midpoint
 };
 
 /// The islands of a step by size, and data to pause those that take no part.

@@ -85,7 +85,7 @@ void Step<S>::findPairs() {
     BroadPhase<S>& broadPhase = *algorithms_.broadPhase;
     ccd.predict(bodies_, contacts_.shapes().records(), def_.gravity, state_.size);
     ContactSearch<S> search{def_.speculativeDistance, def_.cacheTolerance, def_.boxMargin,
-                            def_.speculativeMotion * state_.size};
+                            algorithms_.usual.speculativeMotion * state_.size};
     search.bouncesAhead = contactModel_.bouncesAhead();
     if (algorithms_.large) {
         search.largeCacheTolerance = algorithms_.large->cacheTolerance;
@@ -297,7 +297,10 @@ void Step<S>::correct() {
         // Slower than this a contact is as good as resting, and its overlap is corrected.
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
         StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, state_.positions);
-        algorithms_.correction->correct(positions, def_.positionIterations, def_.slop);
+        // Joints are put right again at the end of the step; one iteration keeps midpoints from drifting.
+        const bool once = motion_.isAtMidpoint() && positions.contactCount() == 0;
+        algorithms_.correction->correct(
+            positions, once ? std::min(def_.positionIterations, 1) : def_.positionIterations, def_.slop);
     }
     motion_.finish(bodies_, h, tasks_);
     if (!last) advanceContacts();

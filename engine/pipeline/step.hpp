@@ -118,11 +118,12 @@ class Step {
     void measureLead(std::size_t body);
     void changeHalves(std::span<const IslandSize> before);
     void moveContact(Contact<S>& contact, const typename S::Vec& pA, const Velocity<S>& a,
-                     const typename S::Vec& pB, const Velocity<S>& b) const;
+                     const typename S::Vec& pB, const Velocity<S>& b, bool keepsSeparation) const;
     void toEnd();
     void releaseBroken();
     void putJointsRight();
     void showContacts();
+    void showGap(Contact<S>& contact) const;
     void beginFlights();
     void endFlights();
     ContactStep<S> contactStep() const;

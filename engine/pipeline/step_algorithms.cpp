@@ -67,7 +67,12 @@ IslandMethod<S> makeMethod(const WorldDef<S>& def, const std::string& solver) {
     method.contactFrequency = def.contactFrequency;
     method.relinearizedJoints = def.relinearizedJoints;
     method.cacheTolerance = def.cacheTolerance;
-    method.speculativeMotion = def.speculativeMotion;
+    // An impact that a body makes while others hold it is then closed at a midpoint, and not corrected after it.
+    const bool findsAhead = method.motion.isAtMidpoint() && !method.style.positions &&
+                            solverTraits(solver).contacts == ContactForm::Rows &&
+                            findAlgorithm(faultTable<S>(), "fault", def.fault).make() == nullptr;
+    method.speculativeMotion =
+        findsAhead ? std::max(def.speculativeMotion, typename S::Real(1)) : def.speculativeMotion;
     if (movesInBlocks<S>(def, solver)) method.motion.moveInBlocks(rotation.gyroscopic);
     return method;
 }

@@ -4,6 +4,9 @@
 // Steps from midpoint to midpoint (integrators/moreau_midpoint.cpp): the way to the midpoints before everything
 // else, the way back to the end of the step after it, and what the world shows of a step whose contacts and
 // joints acted in its middle.
+#include <algorithm>
+
+#include "engine/narrowphase/distance.hpp"
 #include "engine/pipeline/step.hpp"
 
 namespace rigor::engine {
@@ -55,7 +58,21 @@ void Step<S>::endFlights() {
             continue;
         contact.impulses.fill({});
         contact.totals.fill({});
+        showGap(contact);
     }
+}
+
+/// A contact that has not acted is shown by the closest points where the step began, unless it is cached.
+template <class S>
+void Step<S>::showGap(Contact<S>& contact) const {
+    const ShapeRecord<S>&a = contacts_.shapes()[contact.shapeA], &b = contacts_.shapes()[contact.shapeB];
+    if (contact.cache.count > 0 || isComposite<S>(a.shape) || isComposite<S>(b.shape)) return;
+    const ClosestPoints<S> closest =
+        closestPoints<S>(a.shape, compose<S>(state_.leads[contact.bodyA].start, a.local), b.shape,
+                         compose<S>(state_.leads[contact.bodyB].start, b.local));
+    contact.manifold.count = 1;
+    contact.manifold.normal = closest.normal;
+    contact.manifold.points[0] = {closest.pointA, closest.pointB, closest.distance, 0};
 }
 
 /// Time from the end of a step to the midpoint of an island's first sub-step.
@@ -123,25 +140,28 @@ void Step<S>::changeHalves(std::span<const IslandSize> before) {
             const bool kinematic = bodies_.constants[i].type == BodyType::Kinematic;
             return typename S::Vec(kinematic ? bodies_.pose[i].p : bodies_.pose[i].p - motion.v);
         };
-        moveContact(contact, at(contact.bodyA, a), a, at(contact.bodyB, b), b);
+        moveContact(contact, at(contact.bodyA, a), a, at(contact.bodyB, b), b, false);
     }
 }
 
 /// Moves the points of a contact with its bodies, which are at pA, pB before. Both points move without
-/// rotation, and then along the normal, so that the arms of round bodies that roll stay as they are.
+/// rotation, so that the arms of round bodies that roll stay as they are, and then along the normal: to the
+/// separation of the points that have turned with the bodies, or to that before if it is kept.
 template <class S>
 void Step<S>::moveContact(Contact<S>& contact, const typename S::Vec& pA, const Velocity<S>& a,
-                          const typename S::Vec& pB, const Velocity<S>& b) const {
+                          const typename S::Vec& pB, const Velocity<S>& b, bool keepsSeparation) const {
     const typename S::Vec& n = contact.manifold.normal;
     const bool movesA = bodies_.invMass[contact.bodyA] > 0, movesB = bodies_.invMass[contact.bodyB] > 0;
     const Real shareB = movesA && movesB ? Real(0.5) : movesA ? Real(0) : Real(1);
     for (int i = 0; i < contact.manifold.count; ++i) {
         ManifoldPoint<S>& point = contact.manifold.points[i];
+        const Real apart = n.dot(b.v - a.v);
         const Real turned = n.dot(cross(b.w, typename S::Vec(point.pointB - pB)) -
                                   cross(a.w, typename S::Vec(point.pointA - pA)));
-        point.separation += turned + n.dot(b.v - a.v);
-        point.pointA += a.v - ((Real(1) - shareB) * turned) * n;
-        point.pointB += b.v + (shareB * turned) * n;
+        const Real along = keepsSeparation ? -apart : turned;
+        point.separation += apart + along;
+        point.pointA += a.v - ((Real(1) - shareB) * along) * n;
+        point.pointB += b.v + (shareB * along) * n;
     }
     contact.placed = false;
 }
@@ -209,7 +229,8 @@ void Step<S>::putJointsRight() {
     algorithms_.correction->correct(positions, std::min(def_.positionIterations, 2), def_.slop);
 }
 
-/// Contacts are shown where the step began, with the arms that their impulses had.
+/// Contacts are shown where the step began, with the arms that their impulses had. Those that have pressed keep
+/// the separation of the middle of the step, to which the velocities at its end answer.
 template <class S>
 void Step<S>::showContacts() {
     ContactList<S>& contacts = contacts_.list();
@@ -223,8 +244,10 @@ void Step<S>::showContacts() {
             return Velocity<S>{typename S::Vec(share * lead.v), Ang(share * lead.w)};
         };
         const Velocity<S> a = back(contact.bodyA), b = back(contact.bodyB);
+        const bool pressed = std::any_of(contact.totals.begin(), contact.totals.end(),
+                                         [](const auto& total) { return total.normal > 0; });
         moveContact(contact, state_.leads[contact.bodyA].start.p - a.v, a,
-                    state_.leads[contact.bodyB].start.p - b.v, b);
+                    state_.leads[contact.bodyB].start.p - b.v, b, pressed);
     });
 }
 

@@ -48,19 +48,19 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
         return holdsMotors_ && made.law[i].role == RowRole::Motor && out.count < kMaxJointRows &&
                std::abs(record.impulse[i]) < h_ * made.law[i].maxForce;
     };
-    const auto turned = [&](std::uint32_t body, const typename S::Ang& ang) {
+    const auto inertiaOf = [&](std::uint32_t body) {
         return bodies_.invMass[body] > 0
-                   ? typename S::Ang(worldInertia<S>(bodies_.pose[body].q, bodies_.invInertiaLocal[body]) *
-                                     ang)
-                   : zeroAng<S>();
+                   ? worldInertia<S>(bodies_.pose[body].q, bodies_.invInertiaLocal[body])
+                   : zeroInertia<S>();
     };
+    const typename S::Inertia inertiaA = inertiaOf(a), inertiaB = inertiaOf(b);
     const auto add = [&](std::size_t i) {
         const auto place = static_cast<std::size_t>(out.count++);
         Row<S>& row = out.row[place];
         row = made.row[i];
         row.error = made.law[i].role == RowRole::Motor ? Real(0) : made.error[i];
-        row.invIAngA = turned(a, row.angA);
-        row.invIAngB = turned(b, row.angB);
+        row.invIAngA = inertiaA * row.angA;
+        row.invIAngB = inertiaB * row.angB;
         row.softness = 0;
         const Real K = rowK<S>(row, out.block);
         row.invK = K > 0 ? Real(1) / K : Real(0);
@@ -73,7 +73,6 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
     out.block.rows = static_cast<std::uint8_t>(out.count);
     for (std::size_t i = 0; i < count; ++i)
         if (made.law[i].role == RowRole::Limit) add(i);
-    if (out.block.rows > 0) invertBlock<S>(out.row.data(), out.block, out.inverseK);
 }
 
 template <class S>

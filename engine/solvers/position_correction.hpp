@@ -25,7 +25,6 @@ struct JointPositions {
     std::array<Row<S>, kMaxPositionRows> row;                   ///< error is C now; invK of the row alone
     std::array<bool, kMaxPositionRows> unilateral{};            ///< a limit: only C < 0 is an error
     std::array<std::uint32_t, kMaxPositionRows> velocityRow{};  ///< the same row among those of the step
-    BlockMatrix<S> inverseK;                                    ///< inverse K of the equality rows
 };
 
 /// The constraints as input of position correction, after the bodies have moved.

@@ -140,23 +140,31 @@ TYPED_TEST(MidpointShown, AJointBreaksWhenTheStepBegins) {
     EXPECT_NEAR(world.pose(body).p[1], -0.125 * a, 1e-9);
 }
 
-/// A board that turns about its lower edge keeps its energy until it lands.
-TYPED_TEST(MidpointShown, ABoardThatTipsKeepsItsEnergy) {
-    using S = TypeParam;
-    const double mass = 2, half = 0.25, thin = 0.05, inertia = mass / 3 * (half * half + thin * thin);
-    World<S> world(midpointDef<S>());
-    const auto wood = world.addMaterial(1, 0);
-    addGround<S>(world, wood);
-    const double angle = -0.26, c = std::cos(angle), s = std::sin(angle);
+/// A board that stands on its lower edge, tilted by `angle`.
+template <class S>
+BodyId addBoard(World<S>& world, double angle, std::uint32_t material) {
+    const double mass = 2, half = 0.25, thin = 0.05;
     BodyDef<S> def;
     def.mass = mass;
-    def.inertia = isotropic<S>(inertia);
+    def.inertia = isotropic<S>(mass / 3 * (half * half + thin * thin));
     def.pose.q = expMap(spin<S>(angle));
-    def.pose.p = at<S>(0, half * c - thin * s);
+    def.pose.p = at<S>(0, half * std::cos(angle) + thin * std::abs(std::sin(angle)));
     const BodyId board = world.addBody(def);
     typename S::Vec extents = S::Vec::Constant(thin);
     extents[1] = half;
-    attach<S>(world, board, Box<S>{extents}, wood);
+    attach<S>(world, board, Box<S>{extents}, material);
+    return board;
+}
+
+/// It turns about the edge and keeps its energy; the contact is shown as one that neither parts nor closes by
+/// more than the separation allows.
+TYPED_TEST(MidpointShown, ABoardThatTipsKeepsItsEnergy) {
+    using S = TypeParam;
+    World<S> world(midpointDef<S>());
+    const auto wood = world.addMaterial(1, 0);
+    addGround<S>(world, wood);
+    const BodyId board = addBoard<S>(world, -0.26, wood);
+    const double mass = 2, inertia = mass / 3 * (0.25 * 0.25 + 0.05 * 0.05);
     const auto energy = [&] {
         const double w = spinOf<S>(world.angularVelocity(board));
         return 0.5 * mass * world.velocity(board).squaredNorm() + 0.5 * inertia * w * w +
@@ -164,10 +172,37 @@ TYPED_TEST(MidpointShown, ABoardThatTipsKeepsItsEnergy) {
     };
     const double start = energy();
     for (int i = 0; i < 24; ++i) {
+        const typename S::Vec from = world.pose(board).p;
         world.step(kFrame);
         ASSERT_NEAR(energy(), start, 3e-4 * start) << i;
+        std::vector<ContactView<S>> contacts;
+        world.readContacts(contacts);
+        ASSERT_FALSE(contacts.empty()) << i;
+        for (const ContactView<S>& contact : contacts) {
+            if (!(contact.normalImpulse > 0)) continue;
+            const typename S::Vec u = world.velocity(board) + cross(world.angularVelocity(board),
+                                                                    typename S::Vec(contact.pointB - from));
+            ASSERT_NEAR(u[1], -contact.separation / kFrame, 1e-6) << i;
+        }
     }
     EXPECT_GT(std::abs(spinOf<S>(world.angularVelocity(board))), 1);
+}
+
+/// It falls flat on the ground, without overlap.
+TYPED_TEST(MidpointShown, ABoardLandsWithoutOverlap) {
+    using S = TypeParam;
+    World<S> world(midpointDef<S>());
+    const auto wood = world.addMaterial(1, 0);
+    addGround<S>(world, wood);
+    const BodyId board = addBoard<S>(world, -0.4, wood);
+    for (int i = 0; i < 90; ++i) {
+        world.step(kFrame);
+        const double angle = spinOf<S>(logMap(world.pose(board).q));
+        const double lowest =
+            world.pose(board).p[1] - 0.25 * std::abs(std::cos(angle)) - 0.05 * std::abs(std::sin(angle));
+        ASSERT_GT(lowest, -1e-3) << i;
+    }
+    EXPECT_NEAR(world.pose(board).p[1], 0.05, 1e-4);
 }
 
 /// A body of three moments of inertia that tumbles freely: energy and angular momentum stay to rounding.

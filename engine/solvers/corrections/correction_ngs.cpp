@@ -90,7 +90,9 @@ class Ngs final : public PositionCorrection<S> {
             problem.evaluateJoint(j, joint);
             BlockVector<S> error(joint.block.rows);
             for (int r = 0; r < joint.block.rows; ++r) error[r] = joint.row[r].error;
-            const BlockVector<S> lambda = -(joint.inverseK * error);
+            BlockMatrix<S> inverseK;
+            invertBlock<S>(joint.row.data(), joint.block, inverseK);
+            const BlockVector<S> lambda = -(inverseK * error);
             move(problem, joint, lambda.data());
             problem.applyRotations();
         }

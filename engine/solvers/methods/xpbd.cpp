@@ -114,7 +114,9 @@ class Xpbd final : public Solver<S> {
             if (held > 0) {
                 BlockVector<S> C(held);
                 for (int r = 0; r < held; ++r) C[r] = joint_.row[r].error;
-                const BlockVector<S> step = -(joint_.inverseK * C);
+                BlockMatrix<S> inverseK;
+                invertBlock<S>(joint_.row.data(), joint_.block, inverseK);
+                const BlockVector<S> step = -(inverseK * C);
                 for (int r = 0; r < held; ++r) {
                     const auto at = static_cast<std::size_t>(r);
                     Row<S>& row = input.constraints.rows[joint_.velocityRow[at]];
