@@ -73,11 +73,13 @@ void PartProblem<S>::load(const SolverInput<S>& whole, std::span<const std::uint
     bodyOf_.clear();
     velocities_.clear();
     localOf_.resize(whole.velocities.size(), kNullIndex);
-    hasJoints_ = false;
+    renews_ = false;
     for (const std::uint32_t k : blocks) {
         Block<S> block = whole.constraints.blocks[k];
-        hasJoints_ = hasJoints_ || block.kind != BlockKind::Contact;
+        const bool isContact = block.kind == BlockKind::Contact;
         for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
+            // Biases of friction rows follow the slip (ContactModel::updateSlips).
+            renews_ = renews_ || !isContact || (i > block.first && whole.constraints.rows[i].bias != 0);
             rowOf_.push_back(i);
             rows_.rows.push_back(whole.constraints.rows[i]);
         }
@@ -114,10 +116,10 @@ void PartProblem<S>::store() {
     for (std::size_t i = 0; i < bodyOf_.size(); ++i) whole_->velocities[bodyOf_[i]] = velocities_[i];
 }
 
-/// Renews the biases of the whole problem's joints for this part, and copies them.
+/// Renews the biases of the whole problem for this part, where they may change, and copies them.
 template <class S>
 void PartProblem<S>::before(std::span<const Velocity<S>>) {
-    if (!hasJoints_) return;
+    if (!renews_) return;
     store();
     whole_->monitor.before(whole_->velocities, blocks_);
     for (std::size_t i = 0; i < rowOf_.size(); ++i) {

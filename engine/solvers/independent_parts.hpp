@@ -59,7 +59,7 @@ class PartProblem final : private IterationMonitor<S> {
     const SolverInput<S>* whole_ = nullptr;
     ConstraintRows<S> rows_;
     std::vector<Velocity<S>> velocities_;
-    bool hasJoints_ = false;
+    bool renews_ = false;  ///< biases of its rows may change with the velocities
     std::vector<std::uint32_t> blocks_, rowOf_, bodyOf_;  ///< blocks, rows and bodies of the whole problem
     std::vector<std::uint32_t>
         localOf_;  ///< index of each body of the whole problem; kNullIndex: not in the part
