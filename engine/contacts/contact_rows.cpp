@@ -228,12 +228,14 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
     findSlips(bodies, step, rows);
 }
 
-/// In 2D all slips of a contact have one direction.
+/// Slips that forces make and unmake within a step are left out: contacts that stick. In 2D all slips of a
+/// contact have one direction.
 template <class S>
 void RowContacts<S>::findSlips(const BodyArrays<S>& bodies, const ContactStep<S>& step,
                                const ConstraintRows<S>& rows) {
     slips_.clear();
     if (S::dim == 2 || !step.meanSlip) return;
+    const Real slowest = Real(0.05) * step.restingGap / step.h;
     for (std::uint32_t k = 0; k < rows.blocks.size(); ++k) {
         const Block<S>& block = rows.blocks[k];
         if (block.kind != BlockKind::Contact || block.rows < 2) continue;
@@ -241,7 +243,8 @@ void RowContacts<S>::findSlips(const BodyArrays<S>& bodies, const ContactStep<S>
         for (std::size_t i = 0; i < slip.before.size(); ++i)
             slip.before[i] = rowVelocity<S>(rows.rows[block.first + 1 + i], bodies.velocity[block.a],
                                             bodies.velocity[block.b]);
-        slips_.push_back(slip);
+        const Real first = slip.before.front(), second = slip.before.back();
+        if (first * first + second * second > slowest * slowest) slips_.push_back(slip);
     }
 }
 

@@ -43,7 +43,7 @@ class RowContacts final : public ContactModel<S> {
         std::uint32_t block = 0;
         std::array<Real, S::tangents> before{};  ///< along its tangents [m/s]
     };
-    std::vector<Slip> slips_;  ///< where friction opposes the mean slip
+    std::vector<Slip> slips_;  ///< points where friction opposes the mean slip
     bool stepBegins_ = false;  ///< the next sub-step is the first of its step
 };
 

@@ -45,7 +45,7 @@ struct StepState {
     PositionScratch<S> positions;
     ConstraintRows<S> noContacts;         ///< always empty
     std::vector<Velocity<S>> still, way;  ///< zero; velocities of each body in the last sub-step
-    std::vector<Lead<S>> leads;           ///< of integrators that step from midpoint to midpoint
+    std::vector<Lead<S>> leads;  ///< ways to the midpoints; integrators that have none leave them as they are
     FlightImpacts<S> flights;
     std::vector<std::uint8_t> bound;  ///< bodies that joints hold or forces act on
     // --- what the result refers to

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a world shows of a step from midpoint to midpoint: the end of the step, and contacts where it began.
+// A world shows of a step from midpoint to midpoint the state at its end, and contacts where it began.
 #include <gtest/gtest.h>
 
 #include <cmath>
