@@ -36,6 +36,7 @@ class StepMonitor final : public IterationMonitor<S> {
     }
     void before(std::span<const Velocity<S>> velocities, std::span<const std::uint32_t> blocks) override {
         change_ = joints_.updateBiases(bodies_, step_, velocities, rows_, blocks);
+        contacts_.updateSlips(velocities, rows_);
         ++updates_;
     }
     /// True once the joint bias, re-linearised at the predicted end-of-step poses, has stopped changing.
