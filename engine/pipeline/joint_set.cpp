@@ -133,6 +133,20 @@ void JointSet<S>::countRows(const BodyArrays<S>& bodies, Record& record) {
     record.equalities = static_cast<std::uint32_t>(record.ownEqualities + axes.equalities);
 }
 
+/// Calls work(record, scratch) for every record, shared by the threads.
+template <class S>
+template <class Work>
+void JointSet<S>::forRecords(const Tasks& tasks, const Work& work) {
+    if (tasks.threads() == 1) {
+        for (Record& record : records_) work(record, made_);
+        return;
+    }
+    tasks.forRanges(records_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        JointRows<S> made;
+        for (std::size_t i = begin; i < end; ++i) work(records_[i], made);
+    });
+}
+
 template <class S>
 void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step, ConstraintRows<S>& rows,
                           const Tasks& tasks) {
@@ -153,11 +167,9 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
         recordOf_.resize(rows.blocks.size(), kNullIndex);
         if (record.rows > 0) recordOf_[record.block] = static_cast<std::uint32_t>(&record - records_.data());
     }
-    tasks.forRanges(records_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        JointRows<S> made;
-        for (std::size_t i = begin; i < end; ++i)
-            if (records_[i].solved && (records_[i].rows > 0 || countsTurns(records_[i].joint.type)))
-                fillRows(bodies, step, records_[i], made, rows);
+    forRecords(tasks, [&](Record& record, JointRows<S>& made) {
+        if (record.solved && (record.rows > 0 || countsTurns(record.joint.type)))
+            fillRows(bodies, step, record, made, rows);
     });
     startBias_.resize(rows.rows.size());
     for (std::size_t i = 0; i < startBias_.size(); ++i) startBias_[i] = rows.rows[i].bias;
@@ -171,6 +183,7 @@ void JointSet<S>::fillRows(const BodyArrays<S>& bodies, const JointStep<S>& step
     made.reading = !step.begins && countsTurns(joint.type);
     record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made);
     if (made.reading) std::copy_n(made.value.begin(), made.axes, joint.lastCoordinate.begin());
+    made.reading = false;
     RIGOR_CHECK(static_cast<std::uint32_t>(made.count) == record.rows || record.rows == 0, "rows of a joint");
     record.armB = rotate(bodies.pose[joint.b].q, joint.anchorB);
     Block<S> block;
@@ -364,12 +377,11 @@ void JointSet<S>::storeImpulses(const BodyArrays<S>& bodies, const ConstraintRow
         if (!ends || !countsTurns(joint.type)) return;
         made.reading = true;
         record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made);
+        made.reading = false;
         std::copy_n(made.value.begin(), made.axes, joint.lastCoordinate.begin());
     };
-    tasks.forRanges(records_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        JointRows<S> made;
-        for (std::size_t i = begin; i < end; ++i)
-            if (records_[i].solved) store(records_[i], made);
+    forRecords(tasks, [&](Record& record, JointRows<S>& made) {
+        if (record.solved) store(record, made);
     });
 }
 

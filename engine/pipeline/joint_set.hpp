@@ -95,6 +95,8 @@ class JointSet {
     static constexpr std::size_t kGrain = 64;  ///< joints: one takes some 0.2 us
     /// Number of a joint's rows, which does not depend on the poses.
     void countRows(const BodyArrays<S>& bodies, Record& record);
+    template <class Work>
+    void forRecords(const Tasks& tasks, const Work& work);
     void fillRows(const BodyArrays<S>& bodies, const JointStep<S>& step, Record& record, JointRows<S>& made,
                   ConstraintRows<S>& rows) const;
     void updateBias(const BodyArrays<S>& bodies, const JointStep<S>& step,
