@@ -13,9 +13,8 @@
 #include <memory>
 #include <set>
 
-#include "adapters/interface/input_check.hpp"
 #include "adapters/interface/nearest.hpp"
-#include "adapters/interface/registry.hpp"
+#include "adapters/interface/prepared_engine.hpp"
 #include "adapters/rigor/convert_shape.hpp"
 #include "cli/command.hpp"
 #include "cli/guarded.hpp"
@@ -78,13 +77,8 @@ Scene runTo(const DrawArguments& a) {
                                     " s, the scenario's duration (--set duration=S for more)");
     const adapter::EngineSpec spec =
         validation::withScenarioSettings(adapter::parseSpec(a.engine), loaded.text);
-    const adapter::LoadedEngine engine = adapter::loadEngine(spec);
-    if (engine->dynamics() == nullptr)
-        throw adapter::Unsupported("engine '" + spec.engine + "' has no dynamics");
-    const adapter::Settings settings = adapter::resolveSettings(spec, *engine);
-    adapter::checkScenarioInput(scene.scenario, dt);
-    adapter::checkSupported(scene.scenario, engine->capabilities(), spec.engine);
-    const auto world = engine->dynamics()->build(scene.scenario, dt, settings);
+    const adapter::PreparedEngine engine = adapter::prepareEngine(spec, scene.scenario, dt);
+    const auto world = engine.build(scene.scenario, dt);
     validation::Stepper stepper(scene.scenario, dt, *world);
     const auto steps = static_cast<std::size_t>(std::lround(a.at / dt));
     while (stepper.steps() < steps) {
@@ -105,7 +99,13 @@ class SceneLines {
   public:
     using Vec = typename S::Vec;
     SceneLines(const Scene& scene, const std::set<DebugKind>& kinds, engine::SvgLines<S>& sink)
-        : scene_(scene), kinds_(kinds), sink_(sink) {
+        : scene_(scene), sink_(sink) {
+        options_.outlines = kinds.contains(DebugKind::Outline);
+        options_.contacts = kinds.contains(DebugKind::Contact);
+        options_.normals = kinds.contains(DebugKind::Normal);
+        options_.impulses = kinds.contains(DebugKind::Impulse);
+        options_.velocities = kinds.contains(DebugKind::Velocity);
+        options_.joints = kinds.contains(DebugKind::Joint);
         setLengths();
     }
 
@@ -117,7 +117,7 @@ class SceneLines {
         }
         sink_.keepInFrame(true);
         for (const adapter::ContactPoint& contact : scene_.contacts) drawContact(contact);
-        if (shows(DebugKind::Joint))
+        if (options_.joints)
             for (const scenario::Joint& joint : scene_.scenario.joints) {
                 drawAnchor(joint.bodyA, joint.anchorA);
                 drawAnchor(joint.bodyB, joint.anchorB);
@@ -125,7 +125,6 @@ class SceneLines {
     }
 
   private:
-    bool shows(DebugKind kind) const { return kinds_.contains(kind); }
     static engine::BodyId idOf(int body) { return {static_cast<std::uint32_t>(body + 1), 0}; }
     engine::Pose<S> poseOf(int body) const {
         const adapter::BodyState& state = scene_.states[static_cast<std::size_t>(body)];
@@ -163,25 +162,22 @@ class SceneLines {
 
     void drawBody(int body) {
         const scenario::Body& b = scene_.scenario.bodies[static_cast<std::size_t>(body)];
-        if (shows(DebugKind::Outline))
+        if (options_.outlines)
             for (const scenario::Shape& shape : b.shapes)
                 engine::drawShape<S>(adapter::toEngineShape<S>(shape.geometry),
                                      engine::compose<S>(poseOf(body), adapter::toEnginePose<S>(shape.pose)),
                                      idOf(body), options_, sink_);
-        const Vec velocity = adapter::toEngineVec<S>(scene_.states[static_cast<std::size_t>(body)].velocity);
-        if (shows(DebugKind::Velocity) && !velocity.isZero(0))
-            sink_.line(centerOf(body), Vec(centerOf(body) + options_.velocityScale * velocity),
-                       DebugKind::Velocity, idOf(body));
+        engine::drawVelocity<S>(
+            centerOf(body), adapter::toEngineVec<S>(scene_.states[static_cast<std::size_t>(body)].velocity),
+            idOf(body), options_, sink_);
     }
     void drawContact(const adapter::ContactPoint& c) {
         const Vec at = 0.5 * (adapter::toEngineVec<S>(c.pointA) + adapter::toEngineVec<S>(c.pointB));
         const Vec normal = adapter::toEngineVec<S>(c.normal);
-        if (shows(DebugKind::Contact)) sink_.point(at, DebugKind::Contact, idOf(c.bodyB));
-        if (shows(DebugKind::Normal))
-            sink_.line(at, Vec(at + options_.normalLength * normal), DebugKind::Normal, idOf(c.bodyB));
-        if (!shows(DebugKind::Impulse) || !c.hasImpulse) return;
-        const Vec impulse = c.normalImpulse * normal + adapter::toEngineVec<S>(c.frictionImpulse);
-        sink_.line(at, Vec(at + options_.impulseScale * impulse), DebugKind::Impulse, idOf(c.bodyB));
+        const Vec impulse = c.hasImpulse
+                                ? Vec(c.normalImpulse * normal + adapter::toEngineVec<S>(c.frictionImpulse))
+                                : Vec(Vec::Zero());
+        engine::drawContact<S>(at, normal, impulse, idOf(c.bodyB), options_, sink_);
     }
     void drawAnchor(int body, const scenario::Vec3& anchor) {
         const Vec local = adapter::toEngineVec<S>(anchor);
@@ -190,7 +186,6 @@ class SceneLines {
     }
 
     const Scene& scene_;
-    const std::set<DebugKind>& kinds_;
     engine::SvgLines<S>& sink_;
     engine::DebugOptions<S> options_;
 };

@@ -49,25 +49,16 @@ void drawContacts(const World<S>& world, const DebugOptions<S>& options, LineSin
     world.readContacts(contacts);
     for (const ContactView<S>& contact : contacts) {
         const Vec at = Real(0.5) * (contact.pointA + contact.pointB);
-        if (options.contacts) sink.point(at, DebugKind::Contact, contact.bodyB);
-        if (options.normals)
-            sink.line(at, Vec(at + options.normalLength * contact.normal), DebugKind::Normal, contact.bodyB);
         const Vec impulse = contact.normalImpulse * contact.normal + contact.frictionImpulse;
-        if (options.impulses && !impulse.isZero(0))
-            sink.line(at, Vec(at + options.impulseScale * impulse), DebugKind::Impulse, contact.bodyB);
+        drawContact<S>(at, contact.normal, impulse, contact.bodyB, options, sink);
     }
 }
 
 template <class S>
 void drawMotion(const World<S>& world, const DebugOptions<S>& options, LineSink<S>& sink) {
-    using Vec = typename S::Vec;
     if (!options.velocities) return;
-    for (const BodyId body : world.bodies()) {
-        const Vec velocity = world.velocity(body);
-        if (velocity.isZero(0)) continue;
-        const Vec center = centerOf(world, body);
-        sink.line(center, Vec(center + options.velocityScale * velocity), DebugKind::Velocity, body);
-    }
+    for (const BodyId body : world.bodies())
+        drawVelocity<S>(centerOf(world, body), world.velocity(body), body, options, sink);
 }
 
 template <class S>
@@ -110,6 +101,24 @@ const char* debugKindName(DebugKind kind) {
 }
 
 template <class S>
+void drawContact(const typename S::Vec& at, const typename S::Vec& normal, const typename S::Vec& impulse,
+                 BodyId bodyB, const DebugOptions<S>& options, LineSink<S>& sink) {
+    using Vec = typename S::Vec;
+    if (options.contacts) sink.point(at, DebugKind::Contact, bodyB);
+    if (options.normals) sink.line(at, Vec(at + options.normalLength * normal), DebugKind::Normal, bodyB);
+    if (options.impulses && !impulse.isZero(0))
+        sink.line(at, Vec(at + options.impulseScale * impulse), DebugKind::Impulse, bodyB);
+}
+
+template <class S>
+void drawVelocity(const typename S::Vec& center, const typename S::Vec& velocity, BodyId body,
+                  const DebugOptions<S>& options, LineSink<S>& sink) {
+    using Vec = typename S::Vec;
+    if (!options.velocities || velocity.isZero(0)) return;
+    sink.line(center, Vec(center + options.velocityScale * velocity), DebugKind::Velocity, body);
+}
+
+template <class S>
 void drawWorld(const World<S>& world, const DebugOptions<S>& options, LineSink<S>& sink) {
     drawShapes(world, options, sink);
     drawContacts(world, options, sink);
@@ -118,7 +127,11 @@ void drawWorld(const World<S>& world, const DebugOptions<S>& options, LineSink<S
     if (options.islands) drawIslands(world, sink);
 }
 
-#define RIGOR_INSTANTIATE(S) \
+#define RIGOR_INSTANTIATE(S)                                                                    \
+    template void drawContact<S>(const S::Vec&, const S::Vec&, const S::Vec&, BodyId,           \
+                                 const DebugOptions<S>&, LineSink<S>&);                         \
+    template void drawVelocity<S>(const S::Vec&, const S::Vec&, BodyId, const DebugOptions<S>&, \
+                                  LineSink<S>&);                                                \
     template void drawWorld<S>(const World<S>&, const DebugOptions<S>&, LineSink<S>&);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

@@ -53,6 +53,15 @@ struct DebugOptions {
 template <class S>
 void drawWorld(const World<S>& world, const DebugOptions<S>& options, LineSink<S>& sink);
 
+/// A contact point with its normal, from A to B, and the impulse on B [N s]: what the options show of it.
+template <class S>
+void drawContact(const typename S::Vec& at, const typename S::Vec& normal, const typename S::Vec& impulse,
+                 BodyId bodyB, const DebugOptions<S>& options, LineSink<S>& sink);
+/// The velocity [m/s] of a body, if the options show it.
+template <class S>
+void drawVelocity(const typename S::Vec& center, const typename S::Vec& velocity, BodyId body,
+                  const DebugOptions<S>& options, LineSink<S>& sink);
+
 /// The outline of one shape.
 template <class S>
 void drawShape(const Shape<S>& shape, const Pose<S>& pose, BodyId body, const DebugOptions<S>& options,

@@ -7,8 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "adapters/interface/input_check.hpp"
-#include "adapters/interface/registry.hpp"
+#include "adapters/interface/prepared_engine.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/bench/exchange.hpp"
 #include "validation/bench/meter.hpp"
@@ -83,14 +82,9 @@ class SceneCase final : public TimedWork {
     }
 
     BenchRepetition run(int round) override {
-        const adapter::LoadedEngine engine = adapter::loadEngine(spec_);
-        if (engine->dynamics() == nullptr)
-            throw adapter::Unsupported("engine '" + spec_.engine + "' has no dynamics");
-        const adapter::Settings settings = adapter::resolveSettings(spec_, *engine);
-        adapter::checkScenarioInput(scenario_, dt_);
-        adapter::checkSupported(scenario_, engine->capabilities(), spec_.engine);
+        const adapter::PreparedEngine engine = adapter::prepareEngine(spec_, scenario_, dt_);
         const GrownMemory memory;
-        const auto world = engine->dynamics()->build(scenario_, dt_, settings);
+        const auto world = engine.build(scenario_, dt_);
         return drive(*world, round == 0 ? 1 : kReadEvery, memory);
     }
 

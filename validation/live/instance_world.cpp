@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "adapters/interface/input_check.hpp"
 #include "validation/live/drag.hpp"
 
 namespace rigor::validation {
@@ -18,29 +17,20 @@ using scenario::Vec3;
 
 constexpr std::size_t kMostKeptBytes = std::size_t{64} << 20;
 
-const adapter::DynamicsEngine& dynamicsOf(const adapter::Engine& engine, const std::string& name) {
-    if (engine.dynamics() == nullptr) throw adapter::Unsupported("engine '" + name + "' has no dynamics");
-    return *engine.dynamics();
-}
-
 }  // namespace
 
 InstanceWorld::InstanceWorld(Scenario scenario, adapter::EngineSpec spec, double dt)
     : scenario_(std::move(scenario)),
       spec_(std::move(spec)),
       dt_(dt),
-      engine_(adapter::loadEngine(spec_)),
+      engine_(adapter::prepareEngine(spec_, scenario_, dt_)),
       coordinates_(scenario_) {
-    (void)dynamicsOf(*engine_, spec_.engine);
-    settings_ = adapter::resolveSettings(spec_, *engine_);
-    adapter::checkScenarioInput(scenario_, dt_);
-    adapter::checkSupported(scenario_, engine_->capabilities(), spec_.engine);
     build();
 }
 
 void InstanceWorld::build() {
     stepper_.reset();
-    world_ = dynamicsOf(*engine_, spec_.engine).build(scenario_, dt_, settings_);
+    world_ = engine_.build(scenario_, dt_);
     stepper_.emplace(scenario_, dt_, *world_);
     before_.clear();
     coordinates_ = JointCoordinates(scenario_);

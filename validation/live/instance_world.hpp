@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/interface/registry.hpp"
+#include "adapters/interface/prepared_engine.hpp"
 #include "validation/live/scene_now.hpp"
 #include "validation/runner/stepper.hpp"
 
@@ -32,7 +32,7 @@ class InstanceWorld {
     InstanceWorld(scenario::Scenario scenario, adapter::EngineSpec spec, double dt);
 
     const scenario::Scenario& scenario() const { return scenario_; }
-    const adapter::Settings& settings() const { return settings_; }
+    const adapter::Settings& settings() const { return engine_.settings; }
     adapter::World& world() { return *world_; }
     double dt() const { return dt_; }
     std::size_t steps() const { return stepper_->steps(); }
@@ -83,8 +83,7 @@ class InstanceWorld {
     scenario::Scenario scenario_;
     adapter::EngineSpec spec_;
     double dt_;
-    adapter::LoadedEngine engine_;
-    adapter::Settings settings_;
+    adapter::PreparedEngine engine_;
     std::unique_ptr<adapter::World> world_;
     std::optional<Stepper> stepper_;
     std::vector<adapter::BodyState> before_;  ///< states at which the last whole step began

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "adapters/interface/input_check.hpp"
+#include "adapters/interface/prepared_engine.hpp"
 #include "validation/runner/judge.hpp"
 #include "validation/runner/read_back.hpp"
 #include "validation/runner/simulate.hpp"
@@ -66,20 +66,16 @@ WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec
     WholeCase whole;
     CaseRow& row = whole.live.row;
     row = startRow(scenario, spec, dt);
-    const adapter::LoadedEngine engine = adapter::loadEngine(spec);
-    if (engine->dynamics() == nullptr)
-        throw adapter::Unsupported("engine '" + spec.engine + "' has no dynamics");
-    const adapter::Settings settings = adapter::resolveSettings(spec, *engine);
     const Scenario& given = options.given ? options.given->scenario : scenario;
-    adapter::checkScenarioInput(given, dt);
-    adapter::checkSupported(given, engine->capabilities(), spec.engine);
-    row.settings = settings;
+    const adapter::PreparedEngine engine = adapter::prepareEngine(spec, given, dt);
+    row.settings = engine.settings;
 
     const auto buildStart = Clock::now();
-    const auto world = engine->dynamics()->build(given, dt, settings);
+    const auto world = engine.build(given, dt);
     const double buildSeconds = since(buildStart);
     row.ledger = ledgerRows(world->ledger());
-    row.readBack = compareReadBack(given, world->readBack(), readBackTolerance(settings.at("precision")));
+    row.readBack =
+        compareReadBack(given, world->readBack(), readBackTolerance(engine.settings.at("precision")));
     whole.scheme = world->scheme();
 
     Simulation run = simulate(given, dt, *world, options);
