@@ -6,18 +6,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/core/disjoint_sets.hpp"
 #include "engine/solvers/joints/joint_group.hpp"
 
 namespace rigor::engine {
-namespace {
-
-/// The representative of x in a forest of indices, which it flattens.
-std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t x) {
-    while (parent[x] != x) x = parent[x] = parent[parent[x]];
-    return x;
-}
-
-}  // namespace
 
 /// Returns true where the joints are not those of the call before.
 template <class S>
@@ -50,11 +42,11 @@ void JointGroup<S>::findParts() {
     for (const Place& place : places_)
         for (const std::uint32_t body : {place.a, place.b})
             if (body != kNullIndex) bodies = std::max(bodies, body + 1);
-    std::vector<std::uint32_t> parent(bodies), partOf(bodies, kNullIndex), part(places_.size());
-    std::iota(parent.begin(), parent.end(), 0U);
+    DisjointSets connected;
+    connected.begin(bodies);
+    std::vector<std::uint32_t> partOf(bodies, kNullIndex), part(places_.size());
     for (const Place& place : places_)
-        if (place.a != kNullIndex && place.b != kNullIndex)
-            parent[rootOf(parent, place.a)] = rootOf(parent, place.b);
+        if (place.a != kNullIndex && place.b != kNullIndex) connected.join(place.a, place.b);
     std::uint32_t parts = 0;
     for (std::size_t k = 0; k < places_.size(); ++k) {
         const std::uint32_t body = std::min(places_[k].a, places_[k].b);  // kNullIndex is above all
@@ -62,7 +54,7 @@ void JointGroup<S>::findParts() {
             part[k] = parts++;
             continue;
         }
-        std::uint32_t& own = partOf[rootOf(parent, body)];
+        std::uint32_t& own = partOf[connected.rootOf(body)];
         if (own == kNullIndex) own = parts++;
         part[k] = own;
     }
