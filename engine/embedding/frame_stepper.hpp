@@ -40,7 +40,7 @@ class FrameStepper {
         const int due = takeTime(elapsed);
         for (int i = 0; i < due; ++i) {
             before(world_);
-            rememberPoses();
+            if (i + 1 == due) rememberPoses();
             world_.step(static_cast<typename S::Real>(settings_.step));
         }
         return due;

@@ -21,18 +21,18 @@ int main() {
     addSolid<S>(world, {{makeHeightField<S>(41, 41, 0.5, 0.5, heights, 1.0)}}, place);
     place.type = BodyType::Dynamic;
     place.pose.p = {-3, 1.5, 0};
-    const BodyId walker = addSolid<S>(world, {{Capsule<S>{0.3, 0.6}, 900}}, place);
+    const BodyId character = addSolid<S>(world, {{Capsule<S>{0.3, 0.6}, 900}}, place);
     for (int i = 0; i < 360; ++i) {
-        const double falling = world.velocity(walker).y();
+        const double falling = world.velocity(character).y();
         const bool started = i >= 60;  // it has landed by then
-        world.setVelocity(walker, {started ? 1.2 : 0.0, falling, 0}, {0, 0, 0});
-        Pose<S> upright = world.pose(walker);
+        world.setVelocity(character, {started ? 1.2 : 0.0, falling, 0}, {0, 0, 0});
+        Pose<S> upright = world.pose(character);
         upright.q.setIdentity();
-        world.setPose(walker, upright);
+        world.setPose(character, upright);
         world.step(1.0 / 60);
     }
-    const auto p = world.pose(walker).p;
-    const auto down = WorldQueries<S>(world).castRay(p, {0, -3, 0}, [&](BodyId b) { return b != walker; });
+    const auto p = world.pose(character).p;
+    const auto down = WorldQueries<S>(world).castRay(p, {0, -3, 0}, [&](BodyId b) { return b != character; });
     std::printf("walked %.0f m, %s\n", p.x() + 3,
                 down && 3 * down->fraction < 1.1 ? "on the ground" : "lost");
 }

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kIntroduction =
     "# Cookbook\n\n"
-    "Whole programs against the engine's package (`find_package(rigor)`, `rigor::engine`). Each stands in "
+    "Whole programs against the engine's package (`find_package(rigor)`, `rigor::engine`). Each is a file of "
     "`cookbook/`, "
     "and a test\nruns it and compares what it prints.\n";
 
