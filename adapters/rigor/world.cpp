@@ -196,6 +196,7 @@ class RigorWorld final : public World, public StateSetting {
         StepCounters c;
         c.pairTests = last.pairTests;
         c.pairs = last.pairs;
+        c.narrowPhaseQueries = static_cast<std::int64_t>(last.narrowPhaseCalls);
         c.contacts = last.contacts;
         c.solverIterations = last.iterations;
         if (!last.residuals.empty()) c.residual = static_cast<double>(last.residuals.back());

@@ -135,8 +135,7 @@ template <class S>
 void ContactUpdate<S>::makePoints(Candidate<S>& candidate, Contact<S>& contact) const {
     const std::uint32_t a = candidate.a, b = candidate.b;
     if (contact.manifold.count > 0 && makeManifold != nullptr) {
-        const Real size = std::min((shapes.box(a).max - shapes.box(a).min).norm(),
-                                   (shapes.box(b).max - shapes.box(b).min).norm());
+        const Real size = 2 * std::min(shapes[a].radius, shapes[b].radius);
         makeManifold({shapes.pose(a), shapes.pose(b), size, cache.queryDistance(candidate)}, contact.cache,
                      contact.manifold);
     }
@@ -164,10 +163,15 @@ bool ContactUpdate<S>::complete(Candidate<S>& candidate, Contact<S>& contact) co
 
 template <class S>
 void ContactUpdate<S>::query(Candidate<S>& candidate, Manifold<S>& manifold) const {
-    candidate.queried = true;
     const std::uint32_t a = candidate.a, b = candidate.b;
     const Real motion = cache.motion(candidate), distance = cache.queryDistance(candidate) + motion;
     manifold.separationLowerBound = 0;
+    if (const Real gap = shapes.gapOfSpheres(a, b); gap > distance) {
+        candidate.separationBound = gap;
+        cache.storeResult(candidate);
+        return;
+    }
+    candidate.queried = true;
     if (candidate.piece == kNullIndex) {
         narrowPhase.collide(shapes[a].shape, shapes.pose(a), shapes[b].shape, shapes.pose(b), distance,
                             manifold);

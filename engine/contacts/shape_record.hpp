@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "engine/core/ids.hpp"
+#include "engine/shapes/bounding_sphere.hpp"
 #include "engine/shapes/shape.hpp"
 
 namespace rigor::engine {
@@ -23,6 +24,7 @@ struct ShapeRecord {
     typename S::Real boundingRadius = 0, inscribedRadius = 0;
     typename S::Real radius = 0;              ///< bounding radius about the shape's own origin [m]
     typename S::Vec middle = S::Vec::Zero();  ///< a point well inside, in the frame of the shape [m]
+    BoundingSphere<S> sphere;                 ///< in the frame of the shape
 };
 
 }  // namespace rigor::engine

@@ -12,6 +12,13 @@ namespace {
 
 constexpr std::size_t kShapeGrain = 64;  ///< least number of shapes for a task: some microseconds of work
 
+/// The box around a sphere.
+template <class S>
+Aabb<S> boxAround(const typename S::Vec& center, typename S::Real radius) {
+    const typename S::Vec half = S::Vec::Constant(radius);
+    return {center - half, center + half};
+}
+
 }  // namespace
 
 template <class S>
@@ -57,12 +64,17 @@ void ShapeSet<S>::update(const BodyArrays<S>& bodies, const ContactSearch<S>& se
     ahead_.resize(n);
     const Real motionTime = search.longestMotionTime();
     tolerance_.resize(n, search.cacheTolerance);
+    volume_ = search.volume;
+    if (volume_.comparesSpheres) centers_.resize(n);
     tasks.forEach(n, kShapeGrain, [&](std::size_t i) {
         const ShapeRecord<S>& record = records_[i];
         const bool isStatic = bodies.constants[record.body].type == BodyType::Static;
         if (isStatic && staticsValid_) return;
         poses_[i] = compose<S>(bodies.pose[record.body], record.local);
-        boxes_[i] = boundingBox<S>(record.shape, poses_[i]);
+        if (volume_.comparesSpheres) centers_[i] = toWorld<S>(poses_[i], record.sphere.center);
+        boxes_[i] = volume_.boxesOfSpheres && std::isfinite(record.sphere.radius)
+                        ? boxAround<S>(centers_[i], record.sphere.radius)
+                        : boundingBox<S>(record.shape, poses_[i]);
         movable_[i] = bodies.constants[record.body].type == BodyType::Dynamic;
         tolerance_[i] = search.toleranceOf(bodies.islands[record.body]);
         if (movable_[i]) {

@@ -5,13 +5,16 @@
 //
 //     records   [ s0 | s1 | s2 ]     as built; by dense index, which is the broad-phase proxy
 //     poses     [ X0 | X1 | X2 ]     world frame, at the poses that contacts were searched at
-//     boxes     [ b0 | b1 | b2 ]     at those poses; of dynamic bodies grown by a margin
+//     boxes     [ b0 | b1 | b2 ]     at those poses, around the shapes or their bounding spheres; of dynamic bodies
+//                                    grown by a margin
+//     centers   [ c0 | c1 | c2 ]     of bounding spheres, if the search compares them
 //     movable   [  0 |  1 |  1 ]     1: the body is dynamic
 //
 // Invariant: after update() the arrays have one element per record. Boxes of static bodies are computed once
 // and stay until changed().
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -49,6 +52,14 @@ class ShapeSet {
     const Pose<S>& pose(std::size_t i) const { return poses_[i]; }
     const std::vector<Aabb<S>>& boxes() const { return boxes_; }
     const Aabb<S>& box(std::size_t i) const { return boxes_[i]; }
+    /// A lower bound of the distance of two shapes by their bounding spheres; 0 where they meet, have none, or are
+    /// not compared [m].
+    Real gapOfSpheres(std::size_t i, std::size_t k) const {
+        if (!volume_.comparesSpheres) return 0;
+        const Real reach = records_[i].sphere.radius + records_[k].sphere.radius;
+        const Real apart = (centers_[i] - centers_[k]).squaredNorm();
+        return apart > reach * reach ? std::sqrt(apart) - reach : Real(0);
+    }
     /// Cache tolerance of a shape's contacts in this step; that of two shapes is the larger [m].
     Real tolerance(std::size_t i) const { return tolerance_[i]; }
     const std::vector<std::uint8_t>& movable() const { return movable_; }
@@ -68,6 +79,8 @@ class ShapeSet {
     std::vector<std::uint32_t> surfaces_;
     std::vector<Pose<S>> poses_;
     std::vector<Aabb<S>> boxes_;
+    std::vector<typename S::Vec> centers_;
+    BoundingVolume volume_;
     std::vector<Real> tolerance_;
     std::vector<std::uint8_t> movable_;
     std::vector<Real> motions_;

@@ -4,6 +4,7 @@
 
 #include "engine/broadphase/broad_phase.hpp"
 #include "engine/ccd/continuous_collision.hpp"
+#include "engine/contacts/bounding_volume.hpp"
 #include "engine/faults/fault.hpp"
 #include "engine/integrators/integrator.hpp"
 #include "engine/narrowphase/manifolds.hpp"
@@ -32,6 +33,7 @@ std::vector<AlgorithmFamily> algorithmFamilies() {
     using S = Space3d;
     return {
         family("broad_phase", broadPhaseTable<S>()),
+        family("bounding_volume", boundingVolumeTable()),
         family("narrow_phase", narrowPhases()),
         family("manifold", manifoldTable<S>()),
         family("integrator", integratorTable<S>()),

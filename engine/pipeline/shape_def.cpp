@@ -88,6 +88,7 @@ ShapeRecord<S> makeShapeRecord(const ShapeDef<S>& def, const BodyConstants<S>& c
     record.boundingRadius = coreBoundingRadius<S>(record.shape, record.local);
     record.inscribedRadius = inscribedRadiusOf<S>(record.shape);
     record.middle = middleOf<S>(record.shape);
+    record.sphere = boundingSphere<S>(record.shape);
     const Aabb<S> box = boundingBox<S>(record.shape, {});
     record.radius = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).norm();
     return record;

@@ -87,6 +87,7 @@ void Step<S>::findPairs() {
     ccd.predict(bodies_, contacts_.shapes().records(), def_.gravity, state_.size);
     ContactSearch<S> search{def_.speculativeDistance, def_.cacheTolerance, def_.boxMargin,
                             algorithms_.usual.speculativeMotion * state_.size};
+    search.volume = algorithms_.boundingVolume;
     search.bouncesAhead = contactModel_.bouncesAhead();
     if (algorithms_.large) {
         search.largeCacheTolerance = algorithms_.large->cacheTolerance;

@@ -99,6 +99,7 @@ StepAlgorithms<S>::StepAlgorithms(const WorldDef<S>& def) {
             "a manifold that remembers needs the narrow phase in every step: reuse distance must be 0");
     usual = makeMethod<S>(def, def.solver);
     broadPhase = findAlgorithm(broadPhaseTable<S>(), "broad_phase", def.broadPhase).make();
+    boundingVolume = findAlgorithm(boundingVolumeTable(), "bounding_volume", def.boundingVolume).make;
     correction =
         findAlgorithm(positionCorrectionTable<S>(), "position_correction", def.positionCorrection).make();
     ccd =

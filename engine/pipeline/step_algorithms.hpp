@@ -36,6 +36,7 @@ struct StepAlgorithms {
     IslandMethod<S> usual;
     std::optional<IslandMethod<S>> large;  ///< method of large islands, where they have one of their own
     ClonePtr<BroadPhase<S>> broadPhase;
+    BoundingVolume boundingVolume;
     std::shared_ptr<const NarrowPhase<S>> narrowPhase;
     ManifoldFunction<S> makeManifold = nullptr;
     CombineRule<Real> combineFriction = nullptr, combineRestitution = nullptr;

@@ -33,6 +33,7 @@ class WorkMeter {
     void count(const adapter::StepCounters& c) {
         add("broad_phase_pairs", c.pairs);
         add("box_tests", c.pairTests);
+        add("narrow_phase_queries", c.narrowPhaseQueries);
         add("solver_iterations", c.solverIterations);
         add("islands", c.islands);
         for (const auto& [phase, seconds] : c.phaseSeconds) phases_[phase].push_back(seconds);

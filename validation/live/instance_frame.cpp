@@ -104,6 +104,7 @@ json counters(const adapter::StepCounters& c) {
     };
     put("pair_tests", c.pairTests);
     put("pairs", c.pairs);
+    put("narrow_phase_queries", c.narrowPhaseQueries);
     put("contacts", c.contacts);
     put("islands", c.islands);
     put("iterations", c.solverIterations);

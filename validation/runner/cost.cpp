@@ -13,6 +13,7 @@ struct Cost {
 };
 constexpr std::array kCosts{Cost{"mean_pair_tests", &adapter::StepCounters::pairTests},
                             Cost{"mean_pairs", &adapter::StepCounters::pairs},
+                            Cost{"mean_narrow_phase_queries", &adapter::StepCounters::narrowPhaseQueries},
                             Cost{"mean_contacts", &adapter::StepCounters::contacts},
                             Cost{"mean_solver_iterations", &adapter::StepCounters::solverIterations}};
 

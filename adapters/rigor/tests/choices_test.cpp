@@ -134,6 +134,7 @@ Signature signatureOf(const std::string& options) {
             const auto counted = run.world->counters();
             Signature::mix(result.work, counted.pairTests);
             Signature::mix(result.work, counted.pairs);
+            Signature::mix(result.work, counted.narrowPhaseQueries);
             Signature::mix(result.work, counted.solverIterations);
             Signature::mix(result.work, counted.residual);
         }
@@ -144,7 +145,7 @@ Signature signatureOf(const std::string& options) {
 TEST(Choices, NoTwoOfAStageAreTheSame) {
     ASSERT_TRUE(kPathSet);
     // Promise the same bits of motion and differ in what they do for it.
-    const std::set<std::string> sameMotion{"broad_phase", "measure_residuals"};
+    const std::set<std::string> sameMotion{"bounding_volume", "broad_phase", "measure_residuals"};
     for (const auto& option : engine().options()) {
         if (option.values.empty()) continue;
         std::map<std::uint64_t, std::string> motions, works;

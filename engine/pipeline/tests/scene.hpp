@@ -29,6 +29,7 @@ std::string* choiceOf(WorldDef<S>& def, const std::string& family) {
            : family == "manifold"             ? &def.manifold
            : family == "integrator"           ? &def.integrator
            : family == "rotation"             ? &def.rotation
+           : family == "bounding_volume"      ? &def.boundingVolume
            : family == "orientation_update"   ? &def.orientationUpdate
            : family == "solver"               ? &def.solver
            : family == "friction"             ? &def.friction
