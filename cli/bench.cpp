@@ -310,7 +310,7 @@ void addWhat(CLI::App& command, BenchArguments& a) {
     command.add_flag(
         "--full", a.full,
         "Parts with all their sizes, orders, kinds of pairs and residuals: hundreds of cases more");
-    command.add_option("--engines", a.engines, "Engine specs, comma separated; default: all installed");
+    addEngines(command, a.engines, "Engine specs, comma separated; default: all installed");
     command.add_option("--preset", a.preset, "Of specs that name none (default: matched)");
     command
         .add_option("--threads", a.threads, "Numbers of threads for engines that have them (default 1): 1,2")

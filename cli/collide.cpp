@@ -116,9 +116,9 @@ void addCollide(CLI::App& app, Action& action) {
         "Files of cases (rigor_collision JSON, or one query per line), or names of the library");
     command->add_flag("--suite", a->suite, "All case files of the library");
     addRandom(*command, *a);
-    command->add_option(
-        "-e,--engines", a->engines,
-        "Specs, e.g. rigor:narrow_phase=gjk_epa,fcl (default: every engine, every algorithm)");
+    addEngines(*command, a->engines,
+               "Specs, e.g. rigor:narrow_phase=gjk_epa,fcl (default: every engine, every algorithm)",
+               "-e,--engines");
     command->add_option("--out", a->out, "Folder for collide.json, collide.csv and summary.md");
     command->add_option("-j,--jobs", a->jobs, "Children at a time (default: processors)")
         ->check(CLI::Range(1, 1024));

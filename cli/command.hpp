@@ -86,6 +86,10 @@ bool isSuite(const std::string& name);
 /// The scenarios of `given`, in which suites stand for theirs.
 std::vector<std::string> scenarioNames(const std::vector<std::string>& given);
 
+/// --engines SPECS, or other flags; an empty list is an error.
+void addEngines(CLI::App& command, std::string& engines, const std::string& help,
+                const std::string& flags = "--engines");
+
 /// --reference-limit SECONDS
 void addReferenceLimit(CLI::App& command, validation::ReferenceLimits& limits);
 

@@ -13,13 +13,13 @@
 #include <memory>
 #include <set>
 
-#include "adapters/interface/nearest.hpp"
 #include "adapters/interface/prepared_engine.hpp"
 #include "adapters/rigor/convert_shape.hpp"
 #include "cli/command.hpp"
 #include "cli/guarded.hpp"
 #include "engine/embedding/svg_lines.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "scenarios/model/nearest.hpp"
 #include "validation/runner/judge.hpp"
 #include "validation/runner/scenario_settings.hpp"
 #include "validation/runner/stepper.hpp"
@@ -60,7 +60,7 @@ std::set<DebugKind> kindsOf(const std::string& list) {
         if (!known)
             throw std::invalid_argument("--show: found '" + name + "', expected some of outline, contact, " +
                                         "normal, impulse, velocity, joint, with commas between" +
-                                        adapter::didYouMean(name, names));
+                                        scenario::didYouMean(name, names));
         begin = end + 1;
     }
     return kinds;

@@ -88,8 +88,7 @@ void addFit(CLI::App& app, Action& action) {
     command->add_option("FILE", a->file, "Fit file; `rigor import` writes one")
         ->required()
         ->check(CLI::ExistingFile);
-    command->add_option("--engines", a->engines,
-                        "Engine specs instead of the file's; both presets where none is named");
+    addEngines(*command, a->engines, "Engine specs instead of the file's; both presets where none is named");
     command->add_option("--out", a->out, "Folder (default: runs/fit-<name>-<time>)");
     command
         ->add_option("--budget", a->budget, "Points per engine at which the training part is run (file: 140)")

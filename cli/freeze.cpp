@@ -7,6 +7,7 @@
 
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "scenarios/model/counted.hpp"
 #include "validation/contact_problems/export_step.hpp"
 #include "validation/runner/judge.hpp"
 #include "validation/runner/scenario_settings.hpp"
@@ -34,9 +35,10 @@ int exportStep(const FreezeArguments& a) {
     if (a.time >= 0.0)
         request.step = static_cast<std::size_t>(std::max(1.0, std::round(a.time / request.dt)));
     const validation::ExportSummary summary = validation::exportToFile(request, ownBinary(), a.out);
-    std::printf("%s: step %zu of %s by %s, to t = %g s: %zu contacts, %zu bodies", a.out.c_str(),
-                request.step, loaded.scenario.name.c_str(), request.spec.text().c_str(), summary.time,
-                summary.contacts, summary.bodies);
+    std::printf("%s: step %zu of %s by %s, to t = %g s: %s, %s", a.out.c_str(), request.step,
+                loaded.scenario.name.c_str(), request.spec.text().c_str(), summary.time,
+                scenario::counted(summary.contacts, "contact").c_str(),
+                (summary.bodies == 1 ? "1 body" : std::to_string(summary.bodies) + " bodies").c_str());
     if (summary.storedResidual >= 0.0)
         std::printf(", natural map of the engine's own solution %.1e", summary.storedResidual);
     std::printf("\n");

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "scenarios/model/counted.hpp"
 #include "validation/import/importer.hpp"
 
 namespace rigor::cli {
@@ -35,7 +36,7 @@ int runImport(const ImportArguments& a) {
     const auto train = std::count_if(imported.scenarios.begin(), imported.scenarios.end(),
                                      [](const auto& s) { return s.train; });
     const auto test = static_cast<std::ptrdiff_t>(imported.scenarios.size()) - train;
-    std::printf("%zu scenarios in %s", imported.scenarios.size(), folder.c_str());
+    std::printf("%s in %s", scenario::counted(imported.scenarios.size(), "scenario").c_str(), folder.c_str());
     if (train > 0) std::printf(": %td to fit on (train.json)", train);
     if (test > 0) std::printf("%s %td to score on (test.json)", train > 0 ? "," : ":", test);
     std::printf("\n");

@@ -76,6 +76,13 @@ bool isBrokenReference(const scenario::Problem& problem) {
            problem.id == problemId(ReferenceOutcome::Crashed);
 }
 
+void addEngines(CLI::App& command, std::string& engines, const std::string& help, const std::string& flags) {
+    command.add_option(flags, engines, help)->check([](const std::string& text) {
+        const bool empty = text.find_first_not_of(" ,") == std::string::npos;
+        return empty ? "found '" + text + "', expected engine specs (`rigor list engines`)" : std::string();
+    });
+}
+
 void addReferenceLimit(CLI::App& command, validation::ReferenceLimits& limits) {
     command
         .add_option(

@@ -112,8 +112,7 @@ void addPieces(CLI::App& app, Action& action) {
     command->add_option("--every", a->every, "Steps of a piece: K1,K2,... (default 1,8,64)")
         ->delimiter(',')
         ->check(CLI::Range(1, 1000000));
-    command->add_option("--engines", a->engines,
-                        "Engine specs, comma separated; default: all installed, both presets");
+    addEngines(*command, a->engines, "Engine specs, comma separated; default: all installed, both presets");
     command
         ->add_option("--dt", a->timeSteps,
                      "Time steps in seconds (0.004 or 1/240); default: the first of each scenario")

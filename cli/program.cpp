@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "adapters/interface/nearest.hpp"
 #include "adapters/interface/types.hpp"
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "scenarios/model/nearest.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -26,6 +26,51 @@ constexpr const char* kFooter =
     "Engines are named by a spec: bullet, ode:stepper=quickstep,iterations=50, "
     "bullet:preset=matched,precision=f32.";
 
+/// The last command that was named: of "rigor list engines" that of "engines".
+const CLI::App& namedCommand(const CLI::App& app) {
+    const std::vector<CLI::App*> named = app.get_subcommands();
+    return named.empty() ? app : namedCommand(*named.back());
+}
+
+/// "rigor list": a command with those that it belongs to.
+std::string fullName(const CLI::App& command) {
+    const CLI::App* parent = command.get_parent();
+    return (parent == nullptr ? "" : fullName(*parent) + " ") + command.get_name();
+}
+
+std::vector<std::string> commandsOf(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> optionsOf(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+/// Says which word of the command line is not known, and the known one next to it. False: another error.
+bool saysUnknownWord(const CLI::App& app) {
+    const CLI::App& command = namedCommand(app);
+    const std::vector<std::string> words = app.remaining(true);
+    if (words.empty()) return false;
+    const std::string& word = words.front();
+    const bool isOption = word.starts_with("-");
+    const std::vector<std::string> commands = commandsOf(command);
+    if (!isOption && commands.empty()) return false;
+    const std::string name = fullName(command), option = word.substr(0, word.find('='));
+    std::fprintf(
+        stderr, "%s: no %s '%s'%s; `%s --help` lists them\n", name.c_str(), isOption ? "option" : "command",
+        (isOption ? option : word).c_str(),
+        (isOption ? scenario::didYouMean(option, optionsOf(command)) : scenario::didYouMean(word, commands))
+            .c_str(),
+        name.c_str());
+    return true;
+}
+
 int runCommand(int argc, char** argv, const Program& program) {
     CLI::App app{"Rigor: rigid-body engines held to the same references"};
     app.name("rigor");
@@ -36,17 +81,9 @@ int runCommand(int argc, char** argv, const Program& program) {
     for (const AddCommand add : program.commands) add(app, action);
     try {
         app.parse(argc, argv);
-    } catch (const CLI::RequiredError& error) {
-        if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty()) {
-            std::vector<std::string> known;
-            for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-                known.push_back(command->get_name());
-            std::fprintf(stderr, "rigor: no command '%s'%s; `rigor --help` lists them\n", argv[1],
-                         adapter::didYouMean(argv[1], known).c_str());
-            return kBadInput;
-        }
-        return app.exit(error) == 0 ? kOk : kBadInput;
     } catch (const CLI::ParseError& error) {
+        const bool isMistake = error.get_exit_code() != 0;
+        if (isMistake && saysUnknownWord(app)) return kBadInput;
         return app.exit(error) == 0 ? kOk : kBadInput;
     }
     return action();

@@ -3,15 +3,13 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <charconv>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
 #include "cli/command.hpp"
+#include "scenarios/model/time_step.hpp"
 
 namespace rigor::cli {
 
@@ -57,22 +55,12 @@ int terminalColumns(int fileDescriptor) {
 }
 
 double parseTimeStep(const std::string& text) {
-    const auto number = [&](std::string_view part) {
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (error != std::errc{} || end != part.data() + part.size() || !std::isfinite(value))
-            throw std::invalid_argument("--dt: found '" + text +
-                                        "', expected seconds such as 0.004 or 1/240");
-        return value;
-    };
-    const auto slash = text.find('/');
-    const std::string_view view = text;
-    const double dt = slash == std::string::npos
-                          ? number(view)
-                          : number(view.substr(0, slash)) / number(view.substr(slash + 1));
-    if (!(dt >= 1e-7 && dt <= 1.0))
+    const std::optional<double> dt = scenario::parseTimeStep(text);
+    if (!dt)
+        throw std::invalid_argument("--dt: found '" + text + "', expected seconds such as 0.004 or 1/240");
+    if (!(*dt >= 1e-7 && *dt <= 1.0))
         throw std::invalid_argument("--dt: found '" + text + "', expected 1e-7 to 1 s");
-    return dt;
+    return *dt;
 }
 
 }  // namespace rigor::cli

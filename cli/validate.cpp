@@ -9,7 +9,6 @@
 #include <sstream>
 #include <thread>
 
-#include "adapters/interface/nearest.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
@@ -17,6 +16,7 @@
 #include "reports/report.hpp"
 #include "reports/summaries/terminal.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "scenarios/model/nearest.hpp"
 #include "validation/results/insertion_orders.hpp"
 #include "validation/results/judgement.hpp"
 #include "validation/results/store.hpp"
@@ -76,9 +76,8 @@ void checkName(const std::string& name) {
             if (entry.name == name) return;
             known.push_back(entry.name);
         }
-    throw std::invalid_argument("no such scenario or suite: found '" + name +
-                                "', expected a file or a name of the library" +
-                                adapter::didYouMean(name, known));
+    throw std::invalid_argument("no scenario, suite or file has the name '" + name + "'" +
+                                scenario::didYouMean(name, known));
 }
 
 Selection select(const ValidateArguments& arguments) {
@@ -254,8 +253,8 @@ void addValidate(CLI::App& app, Action& action) {
         "validate", "Run scenarios on engines, compare with the references, write the report");
     command->add_option("WHAT", a->what,
                         "Suites or scenarios (names or files); default: the suite 'standard'");
-    command->add_option("--engines", a->engines,
-                        "Engine specs, comma separated; default: all installed, each in all of its presets");
+    addEngines(*command, a->engines,
+               "Engine specs, comma separated; default: all installed, each in all of its presets");
     command
         ->add_option("--dt", a->timeSteps,
                      "Time steps in seconds (0.004 or 1/240) instead of the scenarios' own")

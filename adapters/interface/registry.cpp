@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "adapters/interface/nearest.hpp"
+#include "scenarios/model/nearest.hpp"
 
 namespace rigor::adapter {
 namespace {
@@ -89,7 +89,7 @@ std::filesystem::path moduleFor(const EngineSpec& spec) {
     const auto names = availableEngines();
     for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
     throw BadInput("engine '" + spec.engine + "' is not installed; known engines: " +
-                   (known.empty() ? "none" : known) + didYouMean(spec.engine, names));
+                   (known.empty() ? "none" : known) + scenario::didYouMean(spec.engine, names));
 }
 
 LoadedEngine::LoadedEngine(const std::filesystem::path& module) {

@@ -6,9 +6,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "adapters/interface/nearest.hpp"
 #include "adapters/interface/presets.hpp"
 #include "adapters/interface/registry.hpp"
+#include "scenarios/model/nearest.hpp"
 
 namespace rigor::adapter {
 namespace {
@@ -53,7 +53,8 @@ void checkValue(const std::string& engine, const Option& option, const std::stri
         "engine '" + engine + "', key '" + option.key + "': found '" + value + "', expected ";
     if (!option.values.empty()) {
         if (std::find(option.values.begin(), option.values.end(), value) == option.values.end())
-            throw BadInput(where + "one of " + joined(option.values) + didYouMean(value, option.values));
+            throw BadInput(where + "one of " + joined(option.values) +
+                           scenario::didYouMean(value, option.values));
         return;
     }
     double number = 0.0;
@@ -112,7 +113,7 @@ Settings resolveSettings(const EngineSpec& spec, const Engine& engine) {
     const auto presets = presetNames(own);
     if (std::find(presets.begin(), presets.end(), preset) == presets.end())
         throw BadInput("engine '" + spec.engine + "', key 'preset': found '" + preset +
-                       "', expected one of " + joined(presets) + didYouMean(preset, presets));
+                       "', expected one of " + joined(presets) + scenario::didYouMean(preset, presets));
     const auto options = engine.options();
     Settings settings{{"preset", preset}, {"precision", engine.info().precision}};
     for (const auto& option : options) settings[option.key] = presetValue(option, preset, own);
@@ -123,7 +124,7 @@ Settings resolveSettings(const EngineSpec& spec, const Engine& engine) {
         if (option == options.end() && key == "precision") {
             if (value != "f32" && value != "f64")
                 throw BadInput("engine '" + spec.engine + "', key 'precision': found '" + value +
-                               "', expected one of f32, f64" + didYouMean(value, {"f32", "f64"}));
+                               "', expected one of f32, f64" + scenario::didYouMean(value, {"f32", "f64"}));
             settings[key] = value;
             continue;
         }
@@ -132,7 +133,7 @@ Settings resolveSettings(const EngineSpec& spec, const Engine& engine) {
             for (const auto& o : options)
                 if (o.key != "precision") known.push_back(o.key);
             throw BadInput("engine '" + spec.engine + "': unknown key '" + key + "', expected one of " +
-                           joined(known) + didYouMean(key, known));
+                           joined(known) + scenario::didYouMean(key, known));
         }
         checkValue(spec.engine, *option, value);
         settings[key] = value;

@@ -50,15 +50,49 @@ TEST(CommandLine, ListsEnginesWithVersionAndPrecision) {
     EXPECT_EQ(names, (std::set<std::string>{"box2d", "bullet", "fcl", "ode", "rigor"}));
 }
 
-TEST(CommandLine, AMisspeltCommandSuiteOrScenarioNamesTheNearest) {
+TEST(CommandLine, AMisspeltWordNamesTheNearest) {
     for (const auto& [arguments, meant] : {std::pair{"vaildate smoke", "validate"},
                                            {"validate smok", "smoke"},
-                                           {"validate box_stak", "box_stack"}}) {
+                                           {"validate box_stak", "box_stack"},
+                                           {"run box_stak", "box_stack"},
+                                           {"study iteratons", "iterations"},
+                                           {"collide analitic", "analytic"},
+                                           {"validate smoke --engin rigor", "--engines"},
+                                           {"bench --quite", "--quiet"},
+                                           {"--vershion", "--version"},
+                                           {"list engine", "engines"}}) {
         const Result result = rigor(arguments);
         EXPECT_EQ(result.code, 2) << arguments;
         EXPECT_NE(result.out.find(std::string("did you mean '") + meant + "'"), std::string::npos)
             << result.out;
     }
+}
+
+TEST(CommandLine, AnEmptyListOfEnginesIsAnError) {
+    for (const char* arguments : {"validate smoke --engines ''", "collide analytic --engines ' '",
+                                  "bench bench_bridge --any-build --engines ''"}) {
+        const Result result = rigor(arguments);
+        EXPECT_EQ(result.code, 2) << arguments;
+        EXPECT_NE(result.out.find("expected engine specs"), std::string::npos) << result.out;
+    }
+}
+
+/// Two runs that begin in the same second have a folder each.
+TEST(CommandLine, RunsHaveFoldersOfTheirOwn) {
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "two_runs";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    const std::string program = std::string(RIGOR_BINARY_DIR) +
+                                "/bin/rigor validate free_flight --engines rigor "
+                                "--dt 1/60 --no-audit -q > /dev/null";
+    const std::string both =
+        "cd '" + folder.string() + "' && { " + program + " & " + program + " ; wait $!; }";
+    ASSERT_EQ(std::system(both.c_str()), 0);
+    int stores = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "runs"))
+        stores += !entry.is_symlink() && std::filesystem::exists(entry.path() / "results.sqlite") ? 1 : 0;
+    EXPECT_EQ(stores, 2);
+    EXPECT_TRUE(std::filesystem::exists(folder / "runs" / "latest" / "results.sqlite"));
 }
 
 TEST(CommandLine, EveryListIsAnArrayOfNamedObjects) {

@@ -7,6 +7,7 @@
 
 #include "reports/encoding/text.hpp"
 #include "reports/model/view_model.hpp"
+#include "scenarios/model/counted.hpp"
 #include "validation/results/insertion_orders.hpp"
 #include "validation/results/judgement.hpp"
 
@@ -104,8 +105,9 @@ std::string verdictSentence(const ViewModel& view) {
     const std::string name = runTitle(view.run());
     const int red = view.totals().red;
     if (red == 0) return name + ": no case is red";
-    return name + ": " + std::to_string(red) + " of " + std::to_string(view.totals().total) +
-           (red == 1 ? " cases is red" : " cases are red");
+    return name + ": " + std::to_string(red) + " of " +
+           scenario::counted(static_cast<std::size_t>(view.totals().total), "case") +
+           (red == 1 ? " is red" : " are red");
 }
 
 std::vector<std::pair<std::string, std::string>> totalsText(const ViewModel& view) {

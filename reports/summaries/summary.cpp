@@ -14,6 +14,7 @@
 #include "reports/tables/costs.hpp"
 #include "reports/tables/insertion_orders.hpp"
 #include "reports/tables/refinements.hpp"
+#include "scenarios/model/counted.hpp"
 #include "validation/results/values.hpp"
 
 namespace rigor::report {
@@ -49,8 +50,8 @@ std::string scoreboardRow(const ViewModel& view, std::size_t s) {
 /// The scoreboard in at most `budget` bytes: where it does not fit whole, scenarios with trouble come first.
 std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
     const std::size_t scenarios = view.run().scenarios.size();
-    std::string out = "\n<details><summary>Scoreboard: " + std::to_string(scenarios) + " scenarios, " +
-                      std::to_string(view.columns().size()) + " engine settings</summary>\n\n";
+    std::string out = "\n<details><summary>Scoreboard: " + scenario::counted(scenarios, "scenario") + ", " +
+                      scenario::counted(view.columns().size(), "engine setting") + "</summary>\n\n";
     std::string rule = "|---|---|";
     out += "| scenario | number |";
     for (const auto& column : view.columns()) {
@@ -172,7 +173,8 @@ std::string headline(const ViewModel& view) {
     const auto& run = view.run();
     const auto planned = std::max<std::int64_t>(run.plannedCases, view.totals().total);
     return "## Rigor, " + markdownCell(verdictSentence(view)) + "\n\n" + totalsLines(view) + "\n" +
-           std::to_string(view.totals().total) + " of " + std::to_string(planned) + " cases" +
+           std::to_string(view.totals().total) + " of " +
+           scenario::counted(static_cast<std::size_t>(planned), "case") +
            (run.finished.empty() ? " (**unfinished**)\n" : "\n");
 }
 

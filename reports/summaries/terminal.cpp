@@ -12,6 +12,7 @@
 
 #include "reports/encoding/text.hpp"
 #include "reports/model/view_model.hpp"
+#include "scenarios/model/counted.hpp"
 
 namespace rigor::report {
 namespace {
@@ -250,8 +251,9 @@ std::vector<std::string> totalsLines(const ViewModel& view, std::size_t width) {
     std::vector<std::string> lines;
     const auto planned = std::max<std::int64_t>(view.run().plannedCases, view.totals().total);
     for (const auto& [what, counts] : totalsText(view)) {
-        std::istringstream words(what + ": " + counts +
-                                 (what == "endings" ? " of " + std::to_string(planned) + " cases" : ""));
+        std::istringstream words(
+            what + ": " + counts +
+            (what == "endings" ? " of " + scenario::counted(static_cast<std::size_t>(planned), "case") : ""));
         lines.emplace_back();
         for (std::string word; words >> word;)
             if (lines.back().empty())

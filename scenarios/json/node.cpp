@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "scenarios/model/time_step.hpp"
+
 namespace rigor::scenario {
 namespace {
 
@@ -89,6 +91,15 @@ double Node::number(double min, double max) const {
     if (std::isfinite(value) && value >= min && value <= max) return value;
     problem("value.range", range);
     return min;
+}
+
+double Node::timeStep() const {
+    constexpr double kLeast = 1e-7, kMost = 1.0;
+    if (!value_->is_string()) return number(kLeast, kMost);
+    const std::optional<double> value = parseTimeStep(value_->get<std::string>());
+    if (value && *value >= kLeast && *value <= kMost) return *value;
+    problem("value.range", "seconds from 1e-7 to 1 such as 0.004 or \"1/240\"");
+    return kLeast;
 }
 
 double Node::positive() const {

@@ -61,6 +61,8 @@ class Node {
 
     double number(double min, double max) const;
     double positive() const;
+    /// Seconds from 1e-7 to 1: a number, or text as on the command line ("1/60").
+    double timeStep() const;
     int integer(int min, int max) const;
     bool boolean() const;
     std::string text() const;

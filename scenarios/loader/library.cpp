@@ -11,27 +11,12 @@
 #include "scenarios/loader/overrides.hpp"
 #include "scenarios/loader/schema_check.hpp"
 #include "scenarios/loader/study.hpp"
+#include "scenarios/model/nearest.hpp"
 
 namespace rigor::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Levenshtein distance, for "did you mean".
-std::size_t distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-        }
-    }
-    return row[b.size()];
-}
 
 std::vector<LibraryEntry> entriesOf(const std::vector<fs::path>& folders) {
     std::vector<LibraryEntry> entries;
@@ -54,15 +39,10 @@ fs::path findEntry(const std::vector<LibraryEntry>& entries, const std::string& 
         if (entry.name == nameOrPath) return entry.file;
     std::error_code error;
     if (fs::is_regular_file(nameOrPath, error)) return nameOrPath;
-    std::vector<std::pair<std::size_t, std::string>> near;
-    for (const LibraryEntry& entry : entries) near.emplace_back(distance(nameOrPath, entry.name), entry.name);
-    std::sort(near.begin(), near.end());
-    std::string close;
-    for (std::size_t i = 0; i < std::min<std::size_t>(3, near.size()); ++i)
-        close += (i > 0 ? ", " : "") + near[i].second;
-    throw LoadError(
-        {{kind + ".not_found", nameOrPath, "", 0, "no such " + kind,
-          "a file, or a name of the library" + (close.empty() ? "" : " (close: " + close + ")")}});
+    std::vector<std::string> known;
+    for (const LibraryEntry& entry : entries) known.push_back(entry.name);
+    throw LoadError({{kind + ".not_found", nameOrPath, "", 0, "no " + kind + " or file of this name",
+                      "a file, or a name of the library" + didYouMean(nameOrPath, known)}});
 }
 
 }  // namespace
@@ -126,7 +106,7 @@ Suite loadSuite(const fs::path& file) {
         if (const auto n = root.require("scenarios")) suite.scenarios = n->texts();
         if (const auto n = root.find("engines")) suite.engines = n->texts();
         if (const auto n = root.find("dt"))
-            for (const Node& item : n->items()) suite.timeSteps.push_back(item.number(1e-7, 1.0));
+            for (const Node& item : n->items()) suite.timeSteps.push_back(item.timeStep());
         if (const auto n = root.find("max_time_steps")) suite.maxTimeSteps = n->integer(1, 1000);
         if (const auto n = root.find("orders")) suite.orders = n->integer(1, 1000);
     }

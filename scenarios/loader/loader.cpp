@@ -37,7 +37,7 @@ void readHeader(const Node& root, Scenario& s) {
     if (const auto n = root.find("size")) s.size = root.context().size = n->integer(1, kMaxSize);
     if (const auto n = root.find("time_limit")) s.timeLimit = n->number(0.1, 86400.0);
     if (const auto n = root.require("dt"))
-        for (const Node& step : n->items()) s.timeSteps.push_back(step.number(1e-7, 1.0));
+        for (const Node& step : n->items()) s.timeSteps.push_back(step.timeStep());
     if (root.has("dt") && s.timeSteps.empty()) root["dt"].problem("value.range", "at least one time step");
     if (!root.context().problems.empty()) return;
     for (const double dt : s.timeSteps)

@@ -139,7 +139,7 @@ StudyPart readPart(const Node& node) {
             part.variants.push_back(std::move(variant));
         }
     if (const auto n = node.find("dt"))
-        for (const Node& item : n->items()) part.timeSteps.push_back(item.number(1e-7, 1.0));
+        for (const Node& item : n->items()) part.timeSteps.push_back(item.timeStep());
     if (const auto n = node.require("metrics")) part.metrics = n->texts();
     if (const auto n = node.find("symmetries")) part.symmetries = n->texts();
     if (const auto n = node.find("ensemble")) part.ensemble = readEnsemble(*n);

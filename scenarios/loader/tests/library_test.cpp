@@ -109,7 +109,7 @@ TEST(FindScenario, ByNameByPathAndWithAHint) {
         FAIL() << "found";
     } catch (const LoadError& error) {
         EXPECT_EQ(error.problems()[0].id, "scenario.not_found");
-        EXPECT_THAT(error.problems()[0].expected, testing::HasSubstr("box_stack"));
+        EXPECT_THAT(error.problems()[0].expected, testing::HasSubstr("did you mean 'box_stack'?"));
     }
 }
 

@@ -33,6 +33,13 @@ TEST(Overrides, ByNameByIndexAndDeep) {
     EXPECT_EQ(s.timeSteps, (std::vector<double>{0.001, 0.0005}));
 }
 
+TEST(Overrides, TimeStepsAsOnTheCommandLine) {
+    const Scenario s = with("slide_and_stop", {"dt=[\"1/60\", \"0.004\", 0.002]"}).scenario;
+    EXPECT_EQ(s.timeSteps, (std::vector<double>{1.0 / 60, 0.004, 0.002}));
+    for (const char* wrong : {"1/0", "1/", "/60", "sixty", "1/60 s", "2", "-1/60", ""})
+        EXPECT_NE(idOf("slide_and_stop", "dt=[\"" + std::string(wrong) + "\"]"), "loaded") << wrong;
+}
+
 TEST(Overrides, InsideShapesAndGenerators) {
     const Scenario s = with("box_stack", {"generators.0.grid.counts=[1,3,1]"}).scenario;
     EXPECT_EQ(s.bodies.size(), 4u);

@@ -81,3 +81,6 @@ export function median(values: number[]): number {
   const high = sorted[n >> 1] as number;
   return n % 2 ? high : 0.5 * (high + (sorted[(n >> 1) - 1] as number));
 }
+
+/** "1 case", "2 cases"; for things whose plural has an s alone. */
+export const counted = (n: number, thing: string): string => `${n} ${thing}${n === 1 ? '' : 's'}`;

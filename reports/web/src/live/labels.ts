@@ -3,11 +3,9 @@
 //
 // Labels over each picture: the instance, its time, and its state.
 import { el } from '../common/elements.ts';
-import { duration, format } from '../common/format.ts';
+import { counted, duration, format } from '../common/format.ts';
 import type { ReplayView } from '../replay/view.ts';
 import type { InstanceSource } from './instance_source.ts';
-
-const count = (n: number, what: string) => `${n} ${what}${n === 1 ? '' : 's'}`;
 
 /** "t = 0.5 s · step 60 · 12 contacts · 8 iterations · 0.3 ms a step". */
 export function instanceLine(source: InstanceSource, withNote = true): string {
@@ -17,8 +15,8 @@ export function instanceLine(source: InstanceSource, withNote = true): string {
   const parts = [`t = ${format(head.time, 6)} s`, `step ${head.step}`];
   if (head.stage.in_step) parts.push(`inside the next step, after ${head.stage.done.replaceAll('_', ' ')}`);
   else {
-    if (contacts !== undefined) parts.push(count(contacts, 'contact'));
-    if (iterations !== undefined) parts.push(count(iterations, 'iteration'));
+    if (contacts !== undefined) parts.push(counted(contacts, 'contact'));
+    if (iterations !== undefined) parts.push(counted(iterations, 'iteration'));
     if (residual !== undefined) parts.push(`residual ${format(residual, 2)}`);
   }
   if (head.step_seconds) parts.push(`${duration(head.step_seconds)} a step`);

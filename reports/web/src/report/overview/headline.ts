@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { type Child, el } from '../../common/elements.ts';
+import { counted } from '../../common/format.ts';
 import { run } from '../run.ts';
 import { panel } from '../widgets.ts';
 
@@ -29,9 +30,9 @@ export function headline(): HTMLElement {
     el(
       'p',
       null,
-      `${engines.size} engines in ${run.columns.length} configurations ran ${run.scenarios.length} scenarios, each against the same reference. `,
+      `${counted(engines.size, 'engine')} in ${counted(run.columns.length, 'configuration')} ran ${counted(run.scenarios.length, 'scenario')}, each against the same reference. `,
       el('b', null, `${near} of ${all} graded runs are within a hundredth of the scenario’s own scale. `),
-      run.red ? `${run.red} cases are red: ▼ worse than on record, or they did not end.` : 'No case is red.',
+      run.red ? `${counted(run.red, 'case')} ${run.red === 1 ? 'is' : 'are'} red: ▼ worse than on record, or they did not end.` : 'No case is red.',
     ),
     el(
       'div',

@@ -3,7 +3,7 @@
 //
 // Scenario x engine: grade, change against the record, relative error and cost of a step in one cell; filters and order.
 import { type Child, el } from '../../common/elements.ts';
-import { duration, format, full, ratio, timeStep, toNumber, words } from '../../common/format.ts';
+import { counted, duration, format, full, ratio, timeStep, toNumber, words } from '../../common/format.ts';
 import { type Cell, cellOf, costOf, errorOf, gradeOf, isLost, logPlace, relativeOf } from '../cells.ts';
 import type { Column, Scenario, Shown } from '../data.ts';
 import { isFirstOfEngine, run, scenarioLink, subtitleOf, verdictText } from '../run.ts';
@@ -305,8 +305,8 @@ export function scoreboard(): HTMLElement {
     table.classList.toggle('dense', columns.length > manyColumns);
     count.textContent =
       list.length === run.scenarios.length
-        ? `${list.length} scenarios`
-        : `${list.length} of ${run.scenarios.length} scenarios`;
+        ? counted(list.length, 'scenario')
+        : `${list.length} of ${counted(run.scenarios.length, 'scenario')}`;
   };
   const redraw = (f: Filters) => {
     // The search field keeps its focus while one types.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "adapters/interface/nearest.hpp"
+#include "scenarios/model/nearest.hpp"
 
 #include <gtest/gtest.h>
 
-namespace rigor::adapter {
+namespace rigor::scenario {
 namespace {
 
 TEST(Nearest, EditDistances) {
@@ -29,4 +29,4 @@ TEST(Nearest, TheNearestNameOrNone) {
 }
 
 }  // namespace
-}  // namespace rigor::adapter
+}  // namespace rigor::scenario

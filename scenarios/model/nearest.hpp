@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor::adapter {
+namespace rigor::scenario {
 
 /// Insertions, deletions, substitutions and swaps of neighbours that make one text the other, no part being
 /// edited twice (optimal string alignment; Damerau, Communications of the ACM 7, 1964, 171).
@@ -21,4 +21,4 @@ std::optional<std::string> nearestName(const std::string& found, const std::vect
 /// "; did you mean 'NAME'?" for the nearest name, "" without one: the end of a message.
 std::string didYouMean(const std::string& found, const std::vector<std::string>& known);
 
-}  // namespace rigor::adapter
+}  // namespace rigor::scenario

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "adapters/interface/nearest.hpp"
+#include "scenarios/model/nearest.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-namespace rigor::adapter {
+namespace rigor::scenario {
 
 std::size_t editDistance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> beforeLast, last(b.size() + 1), row(b.size() + 1);
@@ -42,4 +42,4 @@ std::string didYouMean(const std::string& found, const std::vector<std::string>&
     return name ? "; did you mean '" + *name + "'?" : "";
 }
 
-}  // namespace rigor::adapter
+}  // namespace rigor::scenario
