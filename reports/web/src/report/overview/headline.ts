@@ -32,7 +32,9 @@ export function headline(): HTMLElement {
       null,
       `${counted(engines.size, 'engine')} in ${counted(run.columns.length, 'configuration')} ran ${counted(run.scenarios.length, 'scenario')}, each against the same reference. `,
       el('b', null, `${near} of ${all} graded runs are within a hundredth of the scenario’s own scale. `),
-      run.red ? `${counted(run.red, 'case')} ${run.red === 1 ? 'is' : 'are'} red: ▼ worse than on record, or they did not end.` : 'No case is red.',
+      run.red
+        ? `${counted(run.red, 'case')} ${run.red === 1 ? 'is' : 'are'} red: ▼ worse than on record, or they did not end.`
+        : 'No case is red.',
     ),
     el(
       'div',
