@@ -8,7 +8,7 @@ import { el } from '../common/elements.ts';
 
 export function formula(tex: string, plain: string): HTMLElement | null {
   if (tex) {
-    const holder = el('div', { class: 'formula', title: plain });
+    const holder = el('div', { class: 'formula', title: plain, role: 'group', 'aria-label': 'formula', tabindex: 0 });
     try {
       katex.render(tex, holder, { displayMode: true, throwOnError: true, trust: false, strict: 'ignore' });
       return holder;

@@ -103,9 +103,11 @@ export function benchSection(): HTMLElement | null {
   if (!bench) return null;
   return panel(
     'bench',
-    'Bench',
+    null,
+    el('h1', null, 'Rigor bench'),
     run.command ? el('p', { class: 'muted' }, run.started, ' · ', el('code', null, run.command)) : null,
     meaning(bench),
+    el('h2', null, 'Times and work'),
     specs(bench),
     changes(bench),
     subjectsNode(bench),

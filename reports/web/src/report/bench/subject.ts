@@ -123,7 +123,7 @@ function partNode(part: string, subjects: Subject[]): HTMLElement {
       el(
         'table',
         { class: 'full' },
-        headRow(['', ...engines], (i) => i > 0),
+        headRow(['Subject', ...engines], (i) => i > 0),
         el('tbody', null, rows.map(row)),
       ),
     ),

@@ -81,7 +81,7 @@ export function plotCard(plot: Plot): HTMLElement {
   );
   const unit = plot.unit && plot.unit !== '1' ? el('span', { class: 'muted' }, ` [${plot.unit}]`) : null;
   const mayBeLog = plot.lines.every((line) => line.y.every((y) => y === null || y >= 0));
-  const head = el('h4', null, el('span', null, plot.title, unit), mayBeLog ? button : null);
+  const head = el('h3', null, el('span', null, plot.title, unit), mayBeLog ? button : null);
   const attributes = { class: 'chart', 'data-plot': plot.name, role: 'group', 'aria-label': plot.name };
   return addPlot({ node: el('div', attributes, head, box), make, drop });
 }

@@ -91,11 +91,12 @@ function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters, digi
     {
       class: `cell v ${grade ? `g-${grade}` : `v-${shown === 'pass' ? 'no_bound' : shown}`}${cell.cases.some((c) => c.judged.red) ? ' red' : ''}`,
       title: lines.join('\n'),
-      'aria-label': lines.slice(0, 3).join('; '),
+      'aria-label': [`${sign} ${said(cell, f.number, digits)}`, ...lines.slice(0, 3)].join('; '),
       tabindex: -1,
       href: scenarioLink(s.name, { spec: column.spec, dt: cell.worst.dt }),
     },
     el('span', { class: 'sym', 'aria-hidden': 'true' }, sign),
+    ' ',
     el('span', { class: best ? 'value best' : 'value' }, said(cell, f.number, digits)),
     meter('error', logPlace(relativeOf(cell), 1e-6, 1)),
     meter('cost', logPlace(costOf(cell), scale.leastCost, 1000 * scale.leastCost)),

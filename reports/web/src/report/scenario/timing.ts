@@ -20,7 +20,7 @@ export function caseTiming({ scenario, cases }: Context): HTMLElement | null {
     el(
       'tr',
       { 'data-spec': c.spec, 'data-phase': t.phase },
-      el('th', { class: 'sticky', scope: 'row' }, first ? labelOf(c.spec) : ''),
+      first ? el('th', { class: 'sticky', scope: 'row' }, labelOf(c.spec)) : el('td', { class: 'sticky' }),
       el('td', null, t.phase),
       durationCell(t.median),
       hasInterval ? [durationCell(t.low ?? null), durationCell(t.high ?? null)] : null,

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Pages by the rules of axe-core: contrast, names of controls, headings, tables; light and dark, desktop and phone.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { describe, test } from 'node:test';
+import { makeBench, makeSynthetic, type Opened, open, reportOf, skip, smokeRun, watched } from '../browser.ts';
+
+const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+const looks = (['light', 'dark'] as const).flatMap((colorScheme) =>
+  [1400, 390].map((width) => ({ colorScheme, viewport: { width, height: 900 } })),
+);
+
+interface Finding {
+  id: string;
+  impact: string;
+  nodes: { html: string }[];
+}
+
+/** Findings of a page, a line each: "serious color-contrast, 3: <first element>". */
+async function findings(it: Opened, hash: string): Promise<string[]> {
+  const lines: string[] = [];
+  for (const look of looks) {
+    const { page, close } = await watched(it.browser, look);
+    await open(page, it.run, hash);
+    await page.evaluate(axe);
+    const found = (await page.evaluate(
+      "axe.run(document, { resultTypes: ['violations'] }).then((r) => r.violations)",
+    )) as Finding[];
+    const where = `${look.colorScheme}, ${look.viewport.width} px`;
+    for (const f of found) lines.push(`${where}: ${f.impact} ${f.id}, ${f.nodes.length}: ${f.nodes[0]?.html}`);
+    await close();
+  }
+  return lines;
+}
+
+describe('a run has no finding of axe-core', { skip }, () => {
+  const it = reportOf(smokeRun);
+  for (const hash of ['', '#/scenario/free_flight', '#/scenario/box_stack', '#/engine/rigor', '#/engine/box2d'])
+    test(hash || 'the overview', async () => assert.deepEqual(await findings(it, hash), []));
+});
+
+describe('a run with every bad ending has none', { skip }, () => {
+  const it = reportOf(() => makeSynthetic('accessible_endings'));
+  test('the overview', async () => assert.deepEqual(await findings(it, ''), []));
+});
+
+describe('a bench has none', { skip }, () => {
+  const it = reportOf(() => makeBench('accessible_bench'));
+  test('the overview', async () => assert.deepEqual(await findings(it, ''), []));
+});
