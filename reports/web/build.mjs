@@ -28,7 +28,7 @@ const tests = {
   outExtension: { '.js': '.cjs' },
   platform: 'node',
   target: 'node18',
-  external: ['playwright-core'],
+  external: ['axe-core', 'playwright-core'],
 };
 
 await build({

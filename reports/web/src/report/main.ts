@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Header, theme and routes: "#/scenario/<name>?dt=..&spec=..&t=..&pair=.." is a scenario, "#/engine/<name>" an engine,
-// anything else the overview.
+// "#scoreboard?text=..&grade=.." and the like a tab of the overview. An entry of the history keeps how far its page was
+// scrolled.
 import './style.css';
 import './board.css';
 import './charts.css';
@@ -12,13 +13,15 @@ import './print.css';
 import { el } from '../common/elements.ts';
 import { drawAllPlots, dropPlots } from './charts/live_plots.ts';
 import { enginePage } from './engine/page.ts';
-import { navigation, overview } from './overview/page.ts';
+import { filtersOf } from './overview/filters.ts';
+import { tabOf, tabs } from './overview/page.ts';
 import { run } from './run.ts';
 import { scenarioPage } from './scenario/page.ts';
+import { searchField } from './search.ts';
 import { themeButton } from './theme.ts';
 
 const page = document.getElementById('page') as HTMLElement;
-let shown = ''; // the route without its query: what is on the page
+let shown = ''; // the tab or the route without its query: what is on the page
 let leave = () => {}; // function that is called at the end of the page
 let visit = 0; // a page that loads slowly is dropped when another one was opened
 
@@ -30,54 +33,72 @@ interface Page {
   left?: () => void;
 }
 
-const atOnce = 3; // sections of the overview
-
-async function pageOf(hash: string): Promise<Page> {
+/** What of an address says which page it is, and what follows it. */
+function partsOf(hash: string): { path: string; anchor: string; query: URLSearchParams } {
   const [path = '', query = ''] = hash.split('?');
+  if (path.startsWith('#/')) return { path, anchor: '', query: new URLSearchParams(query) };
+  const anchor = path.slice(1);
+  return { path: `#${tabOf(anchor).id}`, anchor, query: new URLSearchParams(query) };
+}
+
+async function pageOf(path: string, query: URLSearchParams): Promise<Page> {
   const [, kind, name] = /^#\/(scenario|engine)\/(.*)$/.exec(path) ?? [];
   if (kind === undefined || name === undefined) {
-    const nodes = overview.slice(0, atOnce).map((make) => make());
-    return { title: '', nodes: nodes.filter((node) => node !== null), more: overview.slice(atOnce) };
+    const tab = tabOf(path.slice(1));
+    if (tab.id === 'scoreboard' && query.size > 0) filtersOf(query);
+    const [first, ...more] = tab.sections.map((section) => section.make);
+    const node = first?.() ?? null;
+    const nodes = node ? [node] : [];
+    if (!node?.querySelector('h1')) nodes.unshift(el('h1', { class: 'read-aloud' }, tab.title));
+    return { title: tab === tabs[0] ? '' : tab.title, nodes, more };
   }
   const title = decodeURIComponent(name);
   if (kind === 'engine') return { title, nodes: enginePage(title) };
-  return { title, ...(await scenarioPage(title, new URLSearchParams(query))) };
+  return { title, ...(await scenarioPage(title, query)) };
 }
 
-async function route(): Promise<void> {
-  const { hash } = location;
-  const path = hash.startsWith('#/') ? (hash.split('?')[0] as string) : '#';
+/** Draws the page of the address; `place`: how far it was scrolled when it was left. */
+async function route(place: number | null = null): Promise<void> {
+  const { path, anchor, query } = partsOf(location.hash);
   const mine = ++visit;
-  const found = await pageOf(hash);
+  const found = await pageOf(path, query);
   if (mine !== visit) return;
-  const stay = path === shown && path !== '#' ? scrollY : 0;
+  const stay = place ?? (path === shown ? scrollY : 0);
   leave();
   leave = found.left ?? (() => {});
   dropPlots(page);
   page.replaceChildren(...found.nodes);
   document.title = `${found.title ? `${found.title} – ` : ''}Rigor report${run.title ? `: ${run.title}` : ''}`;
   shown = path;
+  markTab(path);
   for (const make of found.more ?? []) {
     await new Promise((done) => setTimeout(done));
     if (mine !== visit) return;
     const node = make();
     if (node) page.append(node);
   }
-  const anchor = path === '#' && hash.length > 1 ? document.getElementById(hash.slice(1)) : null;
-  if (anchor) anchor.scrollIntoView();
+  const at = place === null && anchor && `#${anchor}` !== path ? document.getElementById(anchor) : null;
+  if (at) at.scrollIntoView();
   else scrollTo(0, stay);
   found.shown?.();
   page.dataset.shown = String(mine);
 }
 
+function markTab(path: string): void {
+  for (const link of document.querySelectorAll('#top nav a'))
+    if (link.getAttribute('href') === path) link.setAttribute('aria-current', 'page');
+    else link.removeAttribute('aria-current');
+}
+
 function bars(): void {
-  const links = navigation().map(({ id, title }) => el('a', { href: `#${id}` }, title));
+  const links = tabs.map(({ id, title }) => el('a', { href: `#${id}` }, title));
   const brand = el('a', { class: 'brand', href: '#' }, 'Rigor');
   const bar = el(
     'div',
     { class: 'bar' },
     brand,
     el('nav', { 'aria-label': 'Sections' }, links),
+    searchField(),
     themeButton(() => void route()),
   );
   document.getElementById('top')?.append(bar);
@@ -89,9 +110,17 @@ function bars(): void {
     );
 }
 
-addEventListener('hashchange', () => {
-  if (shown === '#' && !location.hash.startsWith('#/')) return; // the browser scrolls
-  void route();
+history.scrollRestoration = 'manual';
+let keeping: ReturnType<typeof setTimeout>;
+addEventListener('scroll', () => {
+  clearTimeout(keeping);
+  keeping = setTimeout(() => history.replaceState({ scrolled: scrollY }, ''), 100);
+});
+const keptPlace = (state: unknown) => (state as { scrolled: number } | null)?.scrolled ?? null;
+/** Forwards and back come with the state of an entry, links without one. */
+addEventListener('popstate', (event) => {
+  clearTimeout(keeping);
+  void route(keptPlace(event.state));
 });
 /** Style for paper: light, and plots as wide as a column. */
 function printing(now: boolean): void {
@@ -109,4 +138,4 @@ let themeBefore: string | undefined;
 addEventListener('beforeprint', () => printing(true));
 addEventListener('afterprint', () => printing(false));
 bars();
-void route();
+void route(keptPlace(history.state));

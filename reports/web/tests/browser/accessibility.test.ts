@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Pages by the rules of axe-core: contrast, names of controls, headings, tables; light and dark, desktop and phone.
+// Pages by the rules of axe-core: contrast, names of controls, headings, tables; light on a desktop, dark on a phone.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, test } from 'node:test';
 import { makeBench, makeSynthetic, type Opened, open, reportOf, skip, smokeRun, watched } from '../browser.ts';
 
 const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
-const looks = (['light', 'dark'] as const).flatMap((colorScheme) =>
-  [1400, 390].map((width) => ({ colorScheme, viewport: { width, height: 900 } })),
-);
+const looks = [
+  { colorScheme: 'light', viewport: { width: 1400, height: 900 } },
+  { colorScheme: 'dark', viewport: { width: 390, height: 844 } },
+] as const;
 
 interface Finding {
   id: string;
@@ -37,7 +38,8 @@ async function findings(it: Opened, hash: string): Promise<string[]> {
 
 describe('a run has no finding of axe-core', { skip }, () => {
   const it = reportOf(smokeRun);
-  for (const hash of ['', '#/scenario/free_flight', '#/scenario/box_stack', '#/engine/rigor', '#/engine/box2d'])
+  const tabs = ['', '#scoreboard', '#cost', '#contacts', '#ledger', '#method'];
+  for (const hash of [...tabs, '#/scenario/free_flight', '#/scenario/box_stack', '#/engine/rigor', '#/engine/box2d'])
     test(hash || 'the overview', async () => assert.deepEqual(await findings(it, hash), []));
 });
 

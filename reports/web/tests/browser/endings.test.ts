@@ -13,6 +13,7 @@ describe('the report of a run that went badly', { skip }, () => {
   test('says what is missing and why', async () => {
     await it.open();
     assert.match(await it.text('#summary'), /This run is unfinished: \d+ of \d+ cases/);
+    await it.open('#scoreboard');
     for (const verdict of ['crashed', 'timeout', 'non_finite']) {
       await it.page.getByLabel('Ending', { exact: true }).selectOption(verdict);
       const rows = it.page.locator('#scoreboard tbody tr');
@@ -28,7 +29,7 @@ describe('the report of a run that went badly', { skip }, () => {
   });
 
   test('every page of it opens, hostile names stay text', async () => {
-    await it.open();
+    await it.open('#scoreboard');
     const links = await it.page
       .locator('#scoreboard tbody th a')
       .evaluateAll((list) => list.map((a) => a.getAttribute('href')));

@@ -238,7 +238,7 @@ describe('links of the contact audit', { skip }, () => {
   }
 
   test('the worst normal is three clicks away and is the exact one of that instant', async () => {
-    await it.open();
+    await it.open('#contacts');
     const link = it.page.locator('#in-run > .scroll tbody td a').first();
     const href = (await link.getAttribute('href')) ?? '';
     const requested = new URLSearchParams(href.split('?')[1]);
@@ -261,7 +261,7 @@ describe('links of the contact audit', { skip }, () => {
 
   for (const name of names)
     test(`every audited contact that the page links to is the one that was measured: ${name}`, async () => {
-      await it.open();
+      await it.open('#contacts');
       const own = 'a[href*="step="]';
       const hrefs = await it.page
         .locator(`#in-run ${own}`)

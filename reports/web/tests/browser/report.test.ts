@@ -17,13 +17,15 @@ describe('the report of a real run', { skip }, () => {
     const start = Date.now();
     await it.open();
     assert.ok(Date.now() - start < 8000, 'opens soon, also on a loaded machine');
+    assert.ok(await it.page.locator('#trust [data-task="sliding"]').isVisible());
+    await it.page.screenshot({ path: join(screenshots, 'overview.png') });
+    await it.open('#scoreboard');
     const names = query(it.run, 'SELECT name FROM scenarios ORDER BY position').flat();
     assert.deepEqual(await it.page.locator('#scoreboard tbody th a').allTextContents(), names);
     const specs = query(it.run, 'SELECT count(DISTINCT spec) FROM cases').flat()[0] as number;
     assert.equal(await it.page.locator('#scoreboard a.cell').count(), names.length * specs);
-    assert.ok(await it.page.locator('#trust [data-task="sliding"]').isVisible());
     assert.match((await it.page.locator('body').textContent()) ?? '', /authors of one of the engines/);
-    await it.page.screenshot({ path: join(screenshots, 'overview.png') });
+    await it.page.screenshot({ path: join(screenshots, 'scoreboard.png') });
     it.clean();
   });
 
@@ -55,14 +57,15 @@ describe('the report of a real run', { skip }, () => {
   });
 
   test('filters and sorts', async () => {
-    await it.open();
+    await it.open('#scoreboard');
     const all = await rows();
     const planar = query(it.run, 'SELECT count(*) FROM scenarios WHERE dimension = 2').flat()[0];
     await it.page.getByLabel('Dimension').selectOption('2');
     assert.equal(await rows(), planar);
     await it.page.getByLabel('Dimension').selectOption('');
-    await it.page.getByLabel('Search').fill('slid');
+    await it.page.getByLabel('Search', { exact: true }).fill('slid');
     assert.equal(await rows(), 1);
+    assert.match(it.page.url(), /#scoreboard\?text=slid$/);
     await it.page.getByRole('button', { name: 'Reset' }).click();
     assert.equal(await rows(), all);
     await it.page.locator('#scoreboard').getByLabel('Preset').selectOption('matched');
@@ -85,8 +88,52 @@ describe('the report of a real run', { skip }, () => {
     it.clean();
   });
 
+  test('a tab has its place and filters in the address, and Back returns to them', async () => {
+    await it.open('#scoreboard?dimension=3&sort=name&descending=true&none=1');
+    const names = () => it.page.locator('#scoreboard tbody th a').allTextContents();
+    const first = await names();
+    assert.deepEqual(first, [...first].sort().reverse());
+    assert.equal(
+      first.length,
+      query(it.run, 'SELECT count(*) FROM scenarios WHERE dimension = 3').flat()[0],
+      'those of the address alone',
+    );
+    await it.page.setViewportSize({ width: 1400, height: 400 });
+    await it.page.evaluate(() => scrollTo(0, 300));
+    await it.page.waitForFunction(() => history.state?.scrolled === 300);
+    await it.page.locator('#scoreboard tbody th a').nth(3).click();
+    await it.page.waitForSelector('#metrics');
+    await it.page.goBack();
+    await it.page.waitForSelector('#scoreboard');
+    await it.page.waitForFunction(() => scrollY === 300);
+    assert.deepEqual(await names(), first);
+    await it.page.setViewportSize({ width: 1400, height: 1000 });
+    await it.page.getByRole('link', { name: 'Cost', exact: true }).click();
+    await it.page.waitForSelector('#timing');
+    assert.equal(await it.page.locator('#scoreboard, #trust, #ledger').count(), 0, 'a tab alone');
+    assert.equal(await it.page.locator('#top nav [aria-current]').textContent(), 'Cost');
+    it.clean();
+  });
+
+  test('the search of the header opens scenarios, engines, tabs and lists', async () => {
+    await it.open('#method');
+    const searched = async (text: string, selector: string) => {
+      await it.page.keyboard.press('/');
+      await it.page.keyboard.type(text);
+      await it.page.keyboard.press('Enter');
+      await it.page.waitForSelector(selector);
+      await it.page.evaluate(() => (document.activeElement as HTMLElement | null)?.blur());
+    };
+    await searched('slide_and_stop', '#metrics');
+    await searched('bullet', '#capabilities');
+    await searched('Contacts', '#in-run');
+    await searched('bounc', '#scoreboard');
+    for (const name of await it.page.locator('#scoreboard tbody th a').allTextContents()) assert.match(name, /bounc/);
+    it.clean();
+  });
+
   test('arrow keys go from cell to cell, and Enter opens one', async () => {
-    await it.open();
+    await it.open('#scoreboard');
     await it.page.getByRole('button', { name: 'Reset' }).click();
     await it.page.locator('#scoreboard a.cell').first().focus();
     await it.page.keyboard.press('ArrowDown');
@@ -191,7 +238,7 @@ describe('the report of a real run', { skip }, () => {
   });
 
   test('the worst of a contact audit is three clicks away, and sets the time', async () => {
-    await it.open();
+    await it.open('#contacts');
     const worst = it.page.locator('#in-run tbody td a').first();
     const requested = new URLSearchParams(((await worst.getAttribute('href')) ?? '').split('?')[1]);
     await worst.click();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Filters and order of the scoreboard. They are kept during a visit to another page of the report.
+// Filters and order of the scoreboard. The address holds those that differ from "all scenarios"; they are kept during a
+// visit to another page of the report.
 
 import { Observable } from '../../common/cursor.ts';
 import { cellOf, costOf, errorOf, gradeOf, relativeOf, type StepChoice, severity } from '../cells.ts';
@@ -38,10 +39,25 @@ export const allScenarios: Filters = {
 };
 export const filters = new Observable<Filters>(allScenarios);
 
-/** Sets some filters, resets the rest, and brings the scoreboard into view. */
+/** "#scoreboard?grade=E&descending=true": the address of the scoreboard with these filters. */
+export function scoreboardLink(f: Filters): string {
+  const query = new URLSearchParams();
+  for (const [key, value] of Object.entries(f))
+    if (value !== allScenarios[key as keyof Filters]) query.set(key, String(value));
+  return query.size > 0 ? `#scoreboard?${query}` : '#scoreboard';
+}
+
+/** Sets the filters of an address; keys that are none are passed over. */
+export function filtersOf(query: URLSearchParams): void {
+  const given: Record<string, string | boolean> = {};
+  for (const [key, value] of query)
+    if (key in allScenarios) given[key] = key === 'descending' ? value === 'true' : value;
+  filters.set({ ...allScenarios, ...given });
+}
+
+/** Opens the scoreboard with some filters set and the rest reset. */
 export function filterScoreboard(changes: Partial<Filters>): void {
-  filters.set({ ...allScenarios, ...changes });
-  document.getElementById('scoreboard')?.scrollIntoView();
+  location.hash = scoreboardLink({ ...allScenarios, ...changes });
 }
 
 export function matches(s: Scenario, columns: Column[], f: Filters): boolean {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The overview, top to bottom. A section is one file and one line here, where it shall stand; one with a title stands in
-// the page's navigation.
+// The overview: tabs of sections. A section is one file and one line here, where it shall stand. The address of a tab, and
+// of a section in it, is "#id".
 import { benchSection } from '../bench/section.ts';
-import { run } from '../run.ts';
+import { run, study } from '../run.ts';
 import { studySection } from '../study/page.ts';
 import { contactQueries, contactsActedUpon } from './contacts.ts';
 import { engines } from './engines.ts';
@@ -18,43 +18,75 @@ import { trust } from './trust.ts';
 
 interface OverviewSection {
   id: string; // id of its element
-  title: string; // title in the navigation; "": not there
   make: () => HTMLElement | null;
+  has?: () => boolean; // false: this run has nothing for it
+}
+
+export interface Tab {
+  id: string;
+  title: string;
+  sections: OverviewSection[];
 }
 
 /** A run of `rigor bench` has no cases to judge: the parts about them are left out. */
-const judged = (make: () => HTMLElement | null) => () => (run.columns.length > 0 ? make() : null);
+const hasCases = () => run.columns.length > 0;
+const hasBench = () => Boolean(run.bench);
+const hasSteps = () => run.scenarios.some((s) => s.cases.some((c) => c.step));
+const hasOverlaps = () => run.scenarios.some((s) => s.cases.some((c) => c.inRun?.overlapping));
 
-const sections: OverviewSection[] = [
-  { id: 'summary', title: '', make: judged(headline) },
-  { id: 'study', title: 'Study', make: studySection },
-  { id: 'bench', title: 'Bench', make: benchSection },
-  { id: 'trust', title: 'Which engine', make: judged(trust) },
-  { id: 'scoreboard', title: 'Scoreboard', make: judged(scoreboard) },
-  { id: 'insertion-orders', title: 'Insertion order', make: insertionOrders },
-  { id: 'timing', title: 'Cost', make: timing },
-  { id: 'in-run', title: 'Contacts', make: contactsActedUpon },
-  { id: 'audit', title: 'Contact queries', make: contactQueries },
-  { id: 'ledger', title: 'Parity ledger', make: judged(ledgerSummary) },
-  { id: 'engines', title: 'Engines', make: engines },
-  { id: 'method', title: 'Method', make: judged(method) },
+/** What a run was made for comes first: a study, a bench, or the verdict. */
+const all: Tab[] = [
+  {
+    id: 'study',
+    title: 'Study',
+    sections: [
+      { id: 'summary', make: headline, has: () => study !== null && hasCases() },
+      { id: 'study', make: studySection, has: () => study !== null },
+    ],
+  },
+  {
+    id: 'bench',
+    title: 'Bench',
+    sections: [
+      { id: 'bench', make: benchSection, has: hasBench },
+      { id: 'engines', make: engines, has: () => hasBench() && !hasCases() },
+    ],
+  },
+  {
+    id: 'verdict',
+    title: 'Verdict',
+    sections: [
+      { id: 'summary', make: headline, has: hasCases },
+      { id: 'trust', make: trust, has: hasCases },
+      { id: 'insertion-orders', make: insertionOrders, has: () => Boolean(run.insertionOrders) },
+    ],
+  },
+  { id: 'scoreboard', title: 'Scoreboard', sections: [{ id: 'scoreboard', make: scoreboard, has: hasCases }] },
+  { id: 'cost', title: 'Cost', sections: [{ id: 'timing', make: timing, has: hasSteps }] },
+  {
+    id: 'contacts',
+    title: 'Contacts',
+    sections: [
+      { id: 'in-run', make: contactsActedUpon, has: hasOverlaps },
+      { id: 'audit', make: contactQueries, has: () => run.audit.length > 0 },
+    ],
+  },
+  { id: 'ledger', title: 'Parity ledger', sections: [{ id: 'ledger', make: ledgerSummary, has: hasCases }] },
+  {
+    id: 'method',
+    title: 'Method',
+    sections: [
+      { id: 'method', make: method, has: hasCases },
+      { id: 'engines', make: engines, has: hasCases },
+    ],
+  },
 ];
 
-export const overview: (() => HTMLElement | null)[] = sections.map((s) => s.make);
+/** Tabs that this run has something for, with their sections. */
+export const tabs: Tab[] = all
+  .map((tab) => ({ ...tab, sections: tab.sections.filter((s) => s.has?.() !== false) }))
+  .filter((tab) => tab.sections.length > 0);
 
-/** Sections that this run has something for. */
-export function navigation(): { id: string; title: string }[] {
-  const has: Record<string, boolean> = {
-    bench: Boolean(run.bench),
-    scoreboard: run.columns.length > 0,
-    ledger: run.columns.length > 0,
-    method: run.columns.length > 0,
-    study: document.getElementById('study-data') !== null,
-    trust: run.columns.length > 0 && run.mechanisms.length > 0,
-    'insertion-orders': Boolean(run.insertionOrders),
-    timing: run.scenarios.some((s) => s.cases.some((c) => c.step)),
-    'in-run': run.scenarios.some((s) => s.cases.some((c) => c.inRun?.overlapping)),
-    audit: run.audit.length > 0,
-  };
-  return sections.filter((s) => s.title && has[s.id] !== false);
-}
+/** The tab of an address "#id", which may be that of a section; the first one for any other. */
+export const tabOf = (id: string): Tab =>
+  tabs.find((tab) => tab.id === id || tab.sections.some((s) => s.id === id)) ?? (tabs[0] as Tab);

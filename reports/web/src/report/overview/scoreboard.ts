@@ -8,7 +8,16 @@ import { type Cell, cellOf, costOf, errorOf, gradeOf, isLost, logPlace, relative
 import type { Column, Scenario, Shown } from '../data.ts';
 import { isFirstOfEngine, run, scenarioLink, subtitleOf, verdictText } from '../run.ts';
 import { changeMark, chip, gradeChip, panel, select, specHead } from '../widgets.ts';
-import { allScenarios, type Filters, filters, matches, ordered, type RowScale, rowScale } from './filters.ts';
+import {
+  allScenarios,
+  type Filters,
+  filters,
+  matches,
+  ordered,
+  type RowScale,
+  rowScale,
+  scoreboardLink,
+} from './filters.ts';
 import { withPreview } from './preview.ts';
 
 const meaning: Record<Shown, string> = {
@@ -261,6 +270,11 @@ function legend(): HTMLElement {
   );
 }
 
+/** The filters stand in the address while the scoreboard is on the page. */
+function keepInAddress(f: Filters): void {
+  if (!location.hash.startsWith('#/')) history.replaceState(history.state, '', scoreboardLink(f));
+}
+
 let unfollow = () => {};
 
 export function scoreboard(): HTMLElement {
@@ -315,7 +329,9 @@ export function scoreboard(): HTMLElement {
     else if (f === allScenarios || Object.entries(allScenarios).every(([k, v]) => f[k as keyof Filters] === v))
       bar.replaceChildren(...controls(f), count);
     draw(f);
+    keepInAddress(f);
   };
+  keepInAddress(filters.value);
   bar.replaceChildren(...controls(filters.value), count);
   draw(filters.value);
   unfollow();

@@ -44,7 +44,7 @@ export function moment(
   });
   const show = (e: Event) => {
     e.preventDefault();
-    history.replaceState(null, '', href);
+    history.replaceState(history.state, '', href);
     showMoment(cursor, time, { spec, bodies, contact });
   };
   return el(
