@@ -14,6 +14,10 @@
 //     Contact  row 0: 0 <= lambda _|_ J v + bias + softness lambda >= 0;
 //              rows 1..: friction, |lambda_t| <= friction * (lambda_0 + appliedNormal); sticks up to
 //              staticFriction instead where that is more
+//     Moment   1..2 rows of relative angular velocity at a contact, |lambda| <= friction * (lambda_n +
+//              appliedNormal), opposing it; lambda_n is the impulse of row `normal`, of the contact block of
+//              the same two bodies that it follows: rolling friction (the tangents; 2D: all) and torsional
+//              friction (the normal) [AiChenRotterOoi2011, model A] [AcaryBourrier2021]
 #pragma once
 
 #include <cmath>
@@ -45,7 +49,11 @@ struct Row {
     Real relaxedBias = 0, relaxedSoftness = 0;
 };
 
-enum class BlockKind : std::uint8_t { Joint, Bounded, Contact };
+enum class BlockKind : std::uint8_t { Joint, Bounded, Contact, Moment };
+/// True for the kinds that contacts are made of.
+constexpr bool isOfContact(BlockKind kind) {
+    return kind == BlockKind::Contact || kind == BlockKind::Moment;
+}
 
 template <class S>
 struct Block {
@@ -54,14 +62,16 @@ struct Block {
     std::uint8_t rows = 0;
     std::uint32_t first = 0;     ///< its rows are first .. first + rows - 1
     std::uint32_t a = 0, b = 0;  ///< dense body indices
-    Real friction = 0;           ///< contact: Coulomb coefficient of sliding
+    Real friction = 0;           ///< contact: Coulomb coefficient of sliding; moment: that of rolling or
+                                 ///< torsional friction [m]
     Real staticFriction = 0;     ///< contact: sticks up to this; read where above friction
     Real restitution = 0;        ///< contact: coefficient where it bounces in this step
     Real appliedNormal = 0;      ///< contact: normal impulse on top of row 0's that bounds the friction as
                                  ///< well
     Real invMassA = 0, invMassB = 0;
-    Real k11 = 0, k12 = 0, k22 = 0;  ///< contact: K of the friction rows
+    Real k11 = 0, k12 = 0, k22 = 0;  ///< contact: K of the friction rows; moment: K
     std::uint32_t matrix = 0;        ///< joint: index of its inverse K
+    std::uint32_t normal = 0;        ///< moment: the row whose impulse bounds it
 };
 
 /// Inverse of the K of a joint block; the upper left rows x rows part is used.

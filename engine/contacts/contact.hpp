@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 
+#include "engine/contacts/shape_record.hpp"
 #include "engine/contacts/slot_list.hpp"
 #include "engine/core/ids.hpp"
 #include "engine/narrowphase/manifolds.hpp"
@@ -46,6 +47,7 @@ struct alignas(64) Contact {
     bool touched = false;      ///< value of `touching` at the end of the step before
     bool placed = false;       ///< the points' arms and separations are those of the manifold
     bool impacts = false;      ///< some point has `impact`
+    bool driven = false;       ///< a surface has a velocity over its body: surfaceA, surfaceB
     IslandSize islands = IslandSize::Usual;  ///< the method that solves its island
     PairCoefficients<S> coefficients;
     /// Row block of each point in this step; kPatch: solved as a patch, without rows; kNullIndex: not solved.
@@ -63,6 +65,11 @@ struct alignas(64) Contact {
     std::uint32_t piece = 0xffffffffu;  ///< segment or triangle of the chain, mesh or field; none of others
     std::uint32_t firstRow = 0, blocks = 0;  ///< place in the rows of this step while rows are made
     PerPoint<Point> points;
+    /// If driven: the velocities of the two surfaces over their bodies, at the centres of mass, world axes.
+    Velocity<S> surfaceA, surfaceB;
+    /// Angular impulses of rolling and torsional friction on B, of all points [N m s], world axes: of the last
+    /// (sub-)step, and its sum over the last step.
+    typename S::Ang moment = zeroAng<S>(), momentTotal = zeroAng<S>();
 };
 
 /// Point at which the impulse of a contact point acts: the same for both bodies, otherwise opposite impulses
@@ -94,6 +101,13 @@ bool isAsleep(const BodyArrays<S>& bodies, const Contact<S>& contact) {
                 dotAng(bodies.velocity[i].w, bodies.velocity[i].w) == typename S::Real(0));
     };
     return still(contact.bodyA) && still(contact.bodyB);
+}
+
+/// The velocity of a shape's surface over its body, at the centre of mass, in world axes.
+template <class S>
+Velocity<S> surfaceNow(const BodyArrays<S>& bodies, const ShapeRecord<S>& shape) {
+    const typename S::Rot& q = bodies.pose[shape.body].q;
+    return {rotate(q, shape.surface.v), rotateAng(q, shape.surface.w)};
 }
 
 /// Sets the points' arms and separations to those of the manifold.

@@ -23,6 +23,13 @@ void putVector(Lanes<PatchReal>* to, std::size_t lane, const V& v) {
     for (int k = 0; k < v.size(); ++k) put(to[k], lane, v[k]);
 }
 template <class S>
+void putAng(Lanes<PatchReal>* to, std::size_t lane, const typename S::Ang& w) {
+    if constexpr (S::dim == 2)
+        put(to[0], lane, w);
+    else
+        putVector(to, lane, w);
+}
+template <class S>
 typename S::Vec takeVector(const Lanes<PatchReal>* from, std::size_t lane) {
     typename S::Vec v;
     for (int k = 0; k < S::dim; ++k) v[k] = from[k][lane];
@@ -58,6 +65,28 @@ struct PatchLane {
     }
 };
 
+/// Fills what a lane has in a block with moving surfaces or moments; a null contact has neither.
+template <class S>
+void fillSurface(const PatchLane<S>& to, const BodyArrays<S>& bodies, const ContactStep<S>& step,
+                 const Contact<S>* contact) {
+    using Vec = typename S::Vec;
+    using Ang = typename S::Ang;
+    const std::size_t lane = to.lane;
+    Velocity<S> surface{Vec::Zero(), zeroAng<S>()};
+    if (contact && contact->driven) {
+        const Velocity<S>&A = contact->surfaceA, &B = contact->surfaceB;
+        const Vec offset = bodies.pose[contact->bodyB].p - bodies.pose[contact->bodyA].p;
+        surface = {Vec(B.v - A.v - cross(A.w, offset)), Ang(B.w - A.w)};
+    }
+    const PairCoefficients<S> pair = contact ? contact->coefficients : PairCoefficients<S>{};
+    const Ang last = contact ? Ang(step.warmStart * contact->moment) : zeroAng<S>();
+    putVector(to.cold.surfaceV, lane, surface.v);
+    putAng<S>(to.cold.surfaceW, lane, surface.w);
+    put(to.cold.rollingFriction, lane, pair.rollingFriction);
+    put(to.cold.torsionalFriction, lane, pair.torsionalFriction);
+    putAng<S>(to.cold.moment, lane, last);
+}
+
 /// Fills a lane with the result of the narrow phase; Patches::prepare derives the other numbers in SIMD. A
 /// null contact leaves an empty lane: zeros that refer to the body `other`. All lanes are read, and no other
 /// block of the colour moves `other`.
@@ -85,6 +114,8 @@ void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const Contact
     put(block.staticFriction, lane, std::max(pair.friction, pair.staticFriction));
     put(to.cold.restitution, lane, step.bounces ? pair.restitution : Real(0));
     block.bounces |= lanes(to.cold.restitution[lane] > 0);
+    block.driven |= lanes(contact && contact->driven);
+    block.moments |= lanes(pair.hasMoments());
     for (std::size_t i = 0; i < count; ++i) {
         const ManifoldPoint<S>& where = contact->manifold.points[i];
         // Speculative points found by continuous collision keep their arms at the time of impact.
@@ -103,6 +134,19 @@ void readLane(const PatchBlock<PatchSpace<S>>& block, const PatchFriction<PatchS
         contact.impulses[i] = {block.point[i].impulse[lane], takeVector<S>(friction.last[i], lane)};
         contact.totals[i] = {block.point[i].total[lane], takeVector<S>(friction.total[i], lane)};
         contact.touching = contact.touching || contact.totals[i].normal > 0;
+    }
+}
+
+/// An angular impulse from its components along the tangents and the normal.
+template <class S>
+typename S::Ang takeMoment(const PatchBlock<PatchSpace<S>>& block, const Lanes<PatchReal>* from,
+                           std::size_t lane) {
+    using Real = typename S::Real;
+    if constexpr (S::dim == 2) {
+        return Real(from[0][lane]);
+    } else {
+        const typename S::Vec t = takeVector<S>(block.tangent, lane), n = takeVector<S>(block.normal, lane);
+        return Real(from[0][lane]) * t + Real(from[1][lane]) * n.cross(t) + Real(from[2][lane]) * n;
     }
 }
 
@@ -147,7 +191,7 @@ void PatchContacts<S>::prepare(ContactList<S>& contacts, const BodyArrays<S>& bo
     patches_.forBlocks(tasks, [&](std::size_t b) {
         auto& block = patches_.block(b);
         PatchFriction<PatchSpace<S>> friction;
-        block.movesA = block.movesB = block.bounces = 0;
+        block.movesA = block.movesB = block.bounces = block.driven = block.moments = 0;
         block.points = 0;
         std::array<const Contact<S>*, kLanes> from;
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -161,6 +205,8 @@ void PatchContacts<S>::prepare(ContactList<S>& contacts, const BodyArrays<S>& bo
         for (std::size_t lane = 0; lane < kLanes; ++lane)
             fillLane<S>({block, patches_.coldData(b), friction, lane}, bodies, step, from[lane],
                         from[0]->bodyA);
+        for (std::size_t lane = 0; (block.driven || block.moments) && lane < kLanes; ++lane)
+            fillSurface<S>({block, patches_.coldData(b), friction, lane}, bodies, step, from[lane]);
         patches_.prepare(b, friction);
     });
 }
@@ -198,8 +244,13 @@ void PatchContacts<S>::store(ContactList<S>& contacts, const ConstraintRows<S>&,
         PatchFriction<PatchSpace<S>> friction;
         patches_.distribute(b, friction);
         for (std::size_t lane = 0; lane < kLanes; ++lane)
-            if (const std::uint32_t source = patches_.sourceAt(b, lane); source != kNullIndex)
+            if (const std::uint32_t source = patches_.sourceAt(b, lane); source != kNullIndex) {
                 readLane(patches_.block(b), friction, lane, contacts[source]);
+                if (!contacts[source].coefficients.hasMoments()) continue;
+                const auto& cold = patches_.coldData(b);
+                contacts[source].moment = takeMoment<S>(patches_.block(b), cold.moment, lane);
+                contacts[source].momentTotal = takeMoment<S>(patches_.block(b), cold.momentTotal, lane);
+            }
     });
 }
 

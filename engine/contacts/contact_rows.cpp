@@ -4,7 +4,9 @@
 // Contact rows. At a point with normal n (A to B), separation s, arms rA, rB from the centres of mass and
 // relative velocity u = vB + wB x rB - vA - wA x rA:
 //     normal    0 <= lambda_n _|_ n . u + b >= 0
-//     tangents  Coulomb's law with limit mu lambda_n
+//     tangents  Coulomb's law with limit mu lambda_n for t . (u + s), s the relative velocity of the surfaces over
+//               their bodies there (conveyor belts)
+//     moments   rolling and torsional friction, moment_rows.hpp; s has its angular velocity in them, too
 // and the bias b is one of
 //     e n . u_0         impact: s <= 0, n . u_0 < -threshold; u_0 from before this step's forces, so that the
 //                       rebound is e times the approach and not e times (approach + g h)
@@ -19,6 +21,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/constraints/moment_rows.hpp"
+
 namespace rigor::engine {
 namespace {
 
@@ -28,10 +32,20 @@ constexpr std::size_t kRowGrain = 16;  ///< least number of contacts for a task:
 template <class R>
 constexpr R kTouching = R(64) * std::numeric_limits<R>::epsilon();
 
+/// Rows of the contact block of a point.
 template <class S>
-std::size_t rowsPerPoint(const Contact<S>& contact) {
+std::size_t contactRows(const Contact<S>& contact) {
     const PairCoefficients<S>& pair = contact.coefficients;
     return std::max(pair.friction, pair.staticFriction) > 0 ? 1 + S::tangents : 1;
+}
+/// Rows and blocks of a point in all.
+template <class S>
+std::size_t rowsPerPoint(const Contact<S>& contact) {
+    return contactRows(contact) + static_cast<std::size_t>(momentRows<S>(contact.coefficients));
+}
+template <class S>
+std::uint32_t blocksPerPoint(const Contact<S>& contact) {
+    return 1 + static_cast<std::uint32_t>(momentBlocks<S>(contact.coefficients));
 }
 
 /// A row along a direction at a point: its geometry.
@@ -90,7 +104,10 @@ void prepareRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, bool s
     contact.asleep = isAsleep(bodies, contact);
     contact.blocks = 0;
     if (!contact.placed) placePoints(bodies, contact);
-    if (stepBegins && !contact.asleep) contact.totals.fill({});
+    if (stepBegins && !contact.asleep) {
+        contact.totals.fill({});
+        if (contact.coefficients.hasMoments()) contact.momentTotal = zeroAng<S>();
+    }
     for (std::size_t i = 0; i < contact.block.size(); ++i) {
         const bool has = i < static_cast<std::size_t>(contact.manifold.count) && !contact.asleep &&
                          preparePoint(bodies, step, contact, i);
@@ -116,7 +133,40 @@ void setPenetrationBias(const ContactStep<S>& step, const Block<S>& block, typen
     normal.invK = Real(1) / rowK<S>(normal, block);
 }
 
-/// Fills a block, but for its first row, and its rows.
+/// The row's velocity is that of the surfaces.
+template <class S>
+void driveRow(const Contact<S>& contact, Row<S>& row) {
+    row.bias = row.relaxedBias = rowVelocity<S>(row, contact.surfaceA, contact.surfaceB);
+}
+
+/// Fraction of the contact's last normal impulse that was at a point; its share of the contact's moment.
+template <class S>
+typename S::Real loadShare(const Contact<S>& contact, std::size_t index) {
+    using Real = typename S::Real;
+    Real sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+        sum += contact.impulses[i].normal;
+    return sum > 0 ? contact.impulses[index].normal / sum : Real(0);
+}
+
+/// Fills the moment blocks of a point, which follow its contact block, and their rows.
+template <class S>
+void makePointMoments(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
+                      std::size_t index, Block<S>* point, Row<S>* rows) {
+    const typename S::Vec& n = contact.manifold.normal;
+    const auto blocks = static_cast<std::size_t>(momentBlocks<S>(contact.coefficients));
+    makeMomentBlocks<S>(point[0], contact.coefficients, n, tangentBasis<S>(n), bodies.invInertia,
+                        point->first + point->rows, point + 1, rows);
+    const typename S::Ang last = typename S::Ang(step.warmStart * loadShare(contact, index) * contact.moment);
+    for (std::size_t k = 1; k <= blocks; ++k)
+        for (std::uint8_t i = 0; i < point[k].rows; ++i) {
+            Row<S>& row = rows[point[k].first - point[1].first + i];
+            row.impulse = dotAng(row.angB, last);
+            if (contact.driven) driveRow(contact, row);
+        }
+}
+
+/// Fills a contact block, but for its first row, and its rows.
 template <class S>
 void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
                    std::size_t index, Block<S>& block, Row<S>* rows) {
@@ -132,7 +182,7 @@ void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, cons
     block.staticFriction = contact.coefficients.staticFriction;
     block.invMassA = bodies.invMass[a];
     block.invMassB = bodies.invMass[b];
-    block.rows = static_cast<std::uint8_t>(rowsPerPoint(contact));
+    block.rows = static_cast<std::uint8_t>(contactRows(contact));
     const auto makeRow = [&](const Vec& direction) {
         Row<S> row = pointRow<S>(point, direction);
         completeRow<S>(row, block, bodies.invInertia);
@@ -159,6 +209,7 @@ void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, cons
     for (std::size_t i = 0; i < basis.size(); ++i) {
         rows[1 + i] = makeRow(basis[i]);
         rows[1 + i].impulse = step.warmStart * basis[i].dot(contact.impulses[index].friction);
+        if (contact.driven) driveRow(contact, rows[1 + i]);
     }
     const Row<S>* t = rows + 1;
     block.k11 = rowCoupling<S>(t[0], t[0], block);
@@ -201,15 +252,19 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
     tasks.forEach(contacts.size(), kRowGrain, [&](std::size_t k) {
         if (contacts[k].islands == islands_) prepareRows<S>(bodies, step, stepBegins_, contacts[k]);
     });
-    std::size_t firstRow = rows.rows.size(), firstBlock = rows.blocks.size();
+    std::size_t firstRow = rows.rows.size(), firstBlock = rows.blocks.size(), points = 0;
     for (Contact<S>& contact : contacts) {
         if (contact.islands != islands_) continue;
         contact.firstRow = static_cast<std::uint32_t>(firstRow);
         for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i)
-            if (contact.block[i] != kNullIndex) contact.block[i] = static_cast<std::uint32_t>(firstBlock++);
+            if (contact.block[i] != kNullIndex) {
+                contact.block[i] = static_cast<std::uint32_t>(firstBlock);
+                firstBlock += blocksPerPoint(contact);
+            }
         firstRow += contact.blocks * rowsPerPoint(contact);
+        points += contact.blocks;
     }
-    counts_ = {firstBlock - rows.blocks.size(), firstRow - rows.rows.size()};
+    counts_ = {points, firstRow - rows.rows.size()};
     stepBegins_ = false;
     rows.rows.resize(firstRow);
     rows.blocks.resize(firstBlock);
@@ -222,7 +277,9 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
             Block<S>& block = rows.blocks[contact.block[i]];
             block.first = row;
             makePointRows<S>(bodies, step, contact, i, block, rows.rows.data() + row);
-            row += block.rows;
+            if (contact.coefficients.hasMoments())
+                makePointMoments<S>(bodies, step, contact, i, &block, rows.rows.data() + row + block.rows);
+            row += static_cast<std::uint32_t>(rowsPerPoint(contact));
         }
     });
     findSlips(bodies, step, rows);
@@ -239,10 +296,13 @@ void RowContacts<S>::findSlips(const BodyArrays<S>& bodies, const ContactStep<S>
     for (std::uint32_t k = 0; k < rows.blocks.size(); ++k) {
         const Block<S>& block = rows.blocks[k];
         if (block.kind != BlockKind::Contact || block.rows < 2) continue;
-        Slip slip{k, {}};
-        for (std::size_t i = 0; i < slip.before.size(); ++i)
-            slip.before[i] = rowVelocity<S>(rows.rows[block.first + 1 + i], bodies.velocity[block.a],
-                                            bodies.velocity[block.b]);
+        Slip slip{k, {}, {}};
+        for (std::size_t i = 0; i < slip.before.size(); ++i) {
+            const Row<S>& row = rows.rows[block.first + 1 + i];
+            slip.surface[i] = row.bias;
+            slip.before[i] = rowVelocity<S>(row, bodies.velocity[block.a], bodies.velocity[block.b]);
+            if (row.bias != 0) slip.before[i] += row.bias;
+        }
         const Real first = slip.before.front(), second = slip.before.back();
         if (first * first + second * second > slowest * slowest) slips_.push_back(slip);
     }
@@ -257,9 +317,16 @@ void RowContacts<S>::updateSlips(std::span<const Velocity<S>> velocities, Constr
         for (int i = 0; i < S::tangents; ++i) {
             before[i] = slip.before[static_cast<std::size_t>(i)];
             after[i] = rowVelocity<S>(tangents[i], velocities[block.a], velocities[block.b]);
+            if (slip.surface[static_cast<std::size_t>(i)] != 0)
+                after[i] += slip.surface[static_cast<std::size_t>(i)];
         }
         const Eigen::Matrix<Real, S::tangents, 1> bias = slipBias<Real, S::tangents>(before, after);
-        for (int i = 0; i < S::tangents; ++i) tangents[i].bias = tangents[i].relaxedBias = bias[i];
+        for (int i = 0; i < S::tangents; ++i) {
+            tangents[i].bias = bias[i];
+            if (slip.surface[static_cast<std::size_t>(i)] != 0)
+                tangents[i].bias += slip.surface[static_cast<std::size_t>(i)];
+            tangents[i].relaxedBias = tangents[i].bias;
+        }
     }
 }
 
@@ -304,7 +371,9 @@ void RowContacts<S>::advance(ContactList<S>& contacts, std::span<const Velocity<
 
 template <class S>
 void RowContacts<S>::store(ContactList<S>& contacts, const ConstraintRows<S>& rows, bool, const Tasks&) {
-    for (Contact<S>& contact : contacts)
+    for (Contact<S>& contact : contacts) {
+        const bool moments = contact.islands == islands_ && contact.coefficients.hasMoments();
+        if (moments) contact.moment = zeroAng<S>();
         for (int i = 0; contact.islands == islands_ && i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (contact.block[k] == kNullIndex) continue;
@@ -317,7 +386,14 @@ void RowContacts<S>::store(ContactList<S>& contacts, const ConstraintRows<S>& ro
             total.normal += now.normal;
             contact.touching = contact.touching || total.normal > 0;
             total.friction += now.friction;
+            for (std::uint32_t m = 1; moments && m < blocksPerPoint(contact); ++m) {
+                const Block<S>& moment = rows.blocks[contact.block[k] + m];
+                for (std::uint32_t r = moment.first; r < moment.first + moment.rows; ++r)
+                    contact.moment += rows.rows[r].impulse * rows.rows[r].angB;
+            }
         }
+        if (moments) contact.momentTotal += contact.moment;
+    }
 }
 
 #define RIGOR_INSTANTIATE(S) template std::array<S::Vec, S::tangents> tangentBasis<S>(const S::Vec&);

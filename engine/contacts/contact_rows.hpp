@@ -41,7 +41,8 @@ class RowContacts final : public ContactModel<S> {
     /// A point that slid before the forces of the sub-step acted.
     struct Slip {
         std::uint32_t block = 0;
-        std::array<Real, S::tangents> before{};  ///< along its tangents [m/s]
+        std::array<Real, S::tangents> before{};   ///< along its tangents [m/s]
+        std::array<Real, S::tangents> surface{};  ///< velocity of the surfaces over the bodies [m/s]
     };
     std::vector<Slip> slips_;  ///< points where friction opposes the mean slip
     bool stepBegins_ = false;  ///< the next sub-step is the first of its step

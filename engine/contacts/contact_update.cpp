@@ -153,8 +153,15 @@ bool ContactUpdate<S>::complete(Candidate<S>& candidate, Contact<S>& contact) co
         ahead.findAhead(contact, shapes.records(), narrowPhase);
         if (!here && contact.manifold.count > 0) candidate.cached = false;
     }
-    if (!(candidate.contact != kNullIndex && coefficientsHold))
-        contact.coefficients = materials.pair(shapes[candidate.a].material, shapes[candidate.b].material);
+    if (!(candidate.contact != kNullIndex && coefficientsHold)) {
+        const ShapeRecord<S>&a = shapes[candidate.a], &b = shapes[candidate.b];
+        contact.coefficients = materials.pair(a.material, b.material);
+        contact.driven = a.hasSurfaceVelocity || b.hasSurfaceVelocity;
+    }
+    if (contact.driven) {
+        contact.surfaceA = surfaceNow(bodies, shapes[candidate.a]);
+        contact.surfaceB = surfaceNow(bodies, shapes[candidate.b]);
+    }
     contact.touching = false;
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
         contact.touching = contact.touching || contact.manifold.points[i].separation < 0;

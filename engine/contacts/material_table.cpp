@@ -15,6 +15,8 @@ PairCoefficients<S> MaterialTable<S>::combine(const PairCoefficients<S>& a,
         both.staticFriction = std::max(
             both.friction,
             combineFriction_(std::max(a.friction, a.staticFriction), std::max(b.friction, b.staticFriction)));
+    both.rollingFriction = combineFriction_(a.rollingFriction, b.rollingFriction);
+    both.torsionalFriction = combineFriction_(a.torsionalFriction, b.torsionalFriction);
     return both;
 }
 

@@ -34,6 +34,8 @@ class MaterialTable {
     void setPair(std::uint32_t a, std::uint32_t b, const PairCoefficients<S>& coefficients);
     const PairCoefficients<S>& pair(std::uint32_t a, std::uint32_t b) const { return pairs_[a * size_ + b]; }
     std::uint32_t size() const { return size_; }
+    /// Makes contacts read anew what they keep of their shapes' surfaces.
+    void touch() { ++revision_; }
     /// Another number after every change.
     std::uint64_t revision() const { return revision_; }
 

@@ -9,6 +9,7 @@
 #include "engine/core/ids.hpp"
 #include "engine/shapes/bounding_sphere.hpp"
 #include "engine/shapes/shape.hpp"
+#include "engine/state/body_arrays.hpp"
 
 namespace rigor::engine {
 
@@ -25,6 +26,9 @@ struct ShapeRecord {
     typename S::Real radius = 0;              ///< bounding radius about the shape's own origin [m]
     typename S::Vec middle = S::Vec::Zero();  ///< a point well inside, in the frame of the shape [m]
     BoundingSphere<S> sphere;                 ///< in the frame of the shape
+    /// ShapeDef::surfaceVelocity with the velocity of the point at the centre of mass, axes of the body frame.
+    Velocity<S> surface;
+    bool hasSurfaceVelocity = false;  ///< false: surface is zero
 };
 
 }  // namespace rigor::engine

@@ -88,6 +88,15 @@ template <class R>
 Eigen::Matrix<R, 3, 1> rotateInverse(const Eigen::Quaternion<R>& q, const Eigen::Matrix<R, 3, 1>& v) {
     return q.conjugate()._transformVector(v);
 }
+/// The same of an angular velocity.
+template <class R>
+R rotateAng(const Rot2<R>&, R w) {
+    return w;
+}
+template <class R>
+Eigen::Matrix<R, 3, 1> rotateAng(const Eigen::Quaternion<R>& q, const Eigen::Matrix<R, 3, 1>& w) {
+    return rotate(q, w);
+}
 template <class R>
 Rot2<R> compose(const Rot2<R>& a, const Rot2<R>& b) {
     return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s};

@@ -85,6 +85,7 @@ ShapeRecord<S> makeShapeRecord(const ShapeDef<S>& def, const BodyConstants<S>& c
     record.local = {def.pose.p - constants.centerOfMass, normalizedRot(def.pose.q)};
     record.body = body;
     record.material = def.material;
+    setSurfaceVelocity<S>(record, def.surfaceVelocity, constants);
     record.boundingRadius = coreBoundingRadius<S>(record.shape, record.local);
     record.inscribedRadius = inscribedRadiusOf<S>(record.shape);
     record.middle = middleOf<S>(record.shape);
@@ -94,7 +95,17 @@ ShapeRecord<S> makeShapeRecord(const ShapeDef<S>& def, const BodyConstants<S>& c
     return record;
 }
 
-#define RIGOR_INSTANTIATE(S) \
+template <class S>
+void setSurfaceVelocity(ShapeRecord<S>& record, const Velocity<S>& surface,
+                        const BodyConstants<S>& constants) {
+    require(surface.v.allFinite() && finiteAng(surface.w), "shape_surface_velocity",
+            "velocities of a surface must be finite");
+    record.surface = {typename S::Vec(surface.v + cross(surface.w, constants.centerOfMass)), surface.w};
+    record.hasSurfaceVelocity = !surface.v.isZero(0) || dotAng(surface.w, surface.w) > 0;
+}
+
+#define RIGOR_INSTANTIATE(S)                                                                        \
+    template void setSurfaceVelocity(ShapeRecord<S>&, const Velocity<S>&, const BodyConstants<S>&); \
     template ShapeRecord<S> makeShapeRecord<S>(const ShapeDef<S>&, const BodyConstants<S>&, std::uint32_t);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

@@ -14,4 +14,10 @@ namespace rigor::engine {
 template <class S>
 ShapeRecord<S> makeShapeRecord(const ShapeDef<S>& def, const BodyConstants<S>& constants, std::uint32_t body);
 
+/// Sets the velocity of the shape's surface over its body (ShapeDef::surfaceVelocity). Throws EngineError where it is
+/// not finite.
+template <class S>
+void setSurfaceVelocity(ShapeRecord<S>& record, const Velocity<S>& surface,
+                        const BodyConstants<S>& constants);
+
 }  // namespace rigor::engine

@@ -19,7 +19,7 @@ namespace rigor::engine {
 namespace {
 
 constexpr char kMagic[8] = {'R', 'I', 'G', 'O', 'R', 'S', 'N', 'P'};
-constexpr std::uint32_t kVersion = 7;  ///< raised with every change of state_fields.def
+constexpr std::uint32_t kVersion = 8;  ///< raised with every change of state_fields.def
 constexpr std::uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -48,6 +48,11 @@ template <class A, class C>
 void visitContact(A& archive, C& contact) {
 #define CONTACT_FIELD(member) visitValue(archive, contact.member);
 #include "engine/state/state_fields.def"
+    // Hashes of worlds without moments do not have them.
+    if (!std::is_same_v<A, HashArchive> || dotAng(contact.moment, contact.moment) > 0) {
+#define MOMENT_FIELD(member) visitValue(archive, contact.member);
+#include "engine/state/state_fields.def"
+    }
     const int count = contact.manifold.count;
     ByteReader::require(count >= 0 && count <= static_cast<int>(contact.points.size()),
                         "a manifold of too many points");
@@ -98,6 +103,10 @@ void visitState(A& archive, World& world) {
     for (auto& shape : world.contacts.shapes().records()) {
 #define SHAPE_FIELD(member) visitValue(archive, shape.member);
 #include "engine/state/state_fields.def"
+        if (!std::is_same_v<A, HashArchive> || shape.hasSurfaceVelocity) {
+#define SURFACE_FIELD(member) visitValue(archive, shape.member);
+#include "engine/state/state_fields.def"
+        }
     }
     for (auto& record : world.joints.records()) {
 #define JOINT_FIELD(member) visitValue(archive, record.member);

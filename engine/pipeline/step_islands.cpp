@@ -62,6 +62,7 @@ void Step<S>::sortIslands() {
             impulse.normal *= factorTo(size);
             impulse.friction *= factorTo(size);
         }
+        contact.moment *= factorTo(size);
     }
     sort.before.assign(bodies_.islands.begin(), bodies_.islands.end());
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) bodies_.islands[i] = sizeOf(i, i);

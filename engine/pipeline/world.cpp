@@ -7,19 +7,25 @@
 #include "engine/pipeline/pose_check.hpp"
 #include "engine/pipeline/require.hpp"
 #include "engine/pipeline/shape_def.hpp"
+#include "engine/solvers/traits.hpp"
 #include "engine/state/sleep.hpp"
 
 namespace rigor::engine {
 namespace {
 
 template <class S>
-void checkCoefficients(const PairCoefficients<S>& c) {
+void checkCoefficients(const PairCoefficients<S>& c, const WorldDef<S>& def) {
     require(c.friction >= 0 && std::isfinite(c.friction), "material_friction",
             "friction must not be negative");
     require(c.restitution >= 0 && c.restitution <= 1, "material_restitution",
             "restitution must be in [0, 1]");
     require(c.staticFriction == 0 || (c.staticFriction >= c.friction && std::isfinite(c.staticFriction)),
             "material_static_friction", "static friction must be 0 (the same) or at least the friction");
+    require(c.rollingFriction >= 0 && c.torsionalFriction >= 0 && std::isfinite(c.rollingFriction) &&
+                std::isfinite(c.torsionalFriction),
+            "material_moments", "rolling and torsional friction are lengths and must not be negative");
+    require(!c.hasMoments() || solverTraits(def.solver).moments, "material_moments",
+            "this solver has no rolling and torsional friction");
 }
 
 }  // namespace
@@ -56,8 +62,12 @@ ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
 
 template <class S>
 std::uint32_t World<S>::addMaterial(Real friction, Real restitution, Real staticFriction) {
-    const PairCoefficients<S> own{friction, restitution, staticFriction};
-    checkCoefficients<S>(own);
+    return addMaterial(PairCoefficients<S>{friction, restitution, staticFriction});
+}
+
+template <class S>
+std::uint32_t World<S>::addMaterial(const PairCoefficients<S>& own) {
+    checkCoefficients<S>(own, parts_.def);
     return parts_.contacts.materials().add(own);
 }
 
@@ -67,7 +77,7 @@ void World<S>::setPair(std::uint32_t materialA, std::uint32_t materialB,
     MaterialTable<S>& materials = parts_.contacts.materials();
     require(materialA < materials.size() && materialB < materials.size(), "pair_material",
             "unknown material");
-    checkCoefficients<S>(coefficients);
+    checkCoefficients<S>(coefficients, parts_.def);
     materials.setPair(materialA, materialB, coefficients);
 }
 
@@ -162,6 +172,24 @@ void World<S>::setVelocity(BodyId body, const Vec& velocity, const Ang& angularV
     parts_.wakeIslandOf(i);
     parts_.bodies.arrays().velocity[i] = {velocity, angularVelocity};
     parts_.bodies.arrays().leaveMidpoint(i);
+}
+
+template <class S>
+void World<S>::setSurfaceVelocity(ShapeId shape, const Velocity<S>& surface) {
+    require(!stepping(), "step_in_progress", "surfaces cannot change between the phases of a step");
+    ShapeSet<S>& shapes = parts_.contacts.shapes();
+    ShapeRecord<S>& record = shapes.records()[shapes.ids().dense(shape)];
+    rigor::engine::setSurfaceVelocity<S>(record, surface, parts_.bodies.arrays().constants[record.body]);
+    parts_.contacts.materials().touch();
+    parts_.wakeNeighboursOf(record.body);
+}
+
+template <class S>
+Velocity<S> World<S>::surfaceVelocity(ShapeId shape) const {
+    const ShapeSet<S>& shapes = parts_.contacts.shapes();
+    const ShapeRecord<S>& record = shapes[shapes.ids().dense(shape)];
+    const Vec& center = parts_.bodies.arrays().constants[record.body].centerOfMass;
+    return {Vec(record.surface.v - cross(record.surface.w, center)), record.surface.w};
 }
 
 template <class S>

@@ -35,6 +35,9 @@ class World {
     void removeBody(BodyId body);
     ShapeId addShape(BodyId body, const ShapeDef<S>& def);
     std::uint32_t addMaterial(Real friction, Real restitution, Real staticFriction = 0);
+    /// The same with rolling and torsional friction. Throws EngineError "material_moments" where the world's solver
+    /// has no rows for them (solvers/traits.hpp).
+    std::uint32_t addMaterial(const PairCoefficients<S>& own);
     /// Coefficients of two materials instead of what WorldDef's combine rules make of them (by default
     /// sqrt(mu_a mu_b) and min(e_a, e_b)).
     void setPair(std::uint32_t materialA, std::uint32_t materialB, const PairCoefficients<S>& coefficients);
@@ -112,6 +115,11 @@ class World {
     Ang angularVelocity(BodyId body) const { return parts_.bodies.velocity(body).w; }
     const BodyConstants<S>& constants(BodyId body) const { return parts_.bodies.constants(body); }
     void setVelocity(BodyId body, const Vec& velocity, const Ang& angularVelocity);
+    /// Velocity of a shape's surface over its body, as ShapeDef::surfaceVelocity; wakes what may rest on it. Throws
+    /// EngineError "shape_surface_velocity" where it is not finite, "step_in_progress" between the phases of a step.
+    void setSurfaceVelocity(ShapeId shape, const Velocity<S>& surface);
+    /// What was set, as in ShapeDef.
+    Velocity<S> surfaceVelocity(ShapeId shape) const;
     /// Puts a body elsewhere, of any type, without a way between: its velocity stays, its contacts begin anew, and
     /// what it touched or hung on wakes. Joints pull it back. Throws EngineError "body_pose" for poses that are
     /// not finite or no rotation, "step_in_progress" between the phases of a step.

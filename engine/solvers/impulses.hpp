@@ -39,7 +39,7 @@ double setImpulses(const SolverInput<S>& input, const std::vector<Value>& impuls
 }
 
 /// Projects impulses to the nearest ones that the rows allow: bounds, and Coulomb's cone (of static
-/// friction).
+/// friction), and the bounds of moments.
 template <class S>
 void projectImpulses(const ConstraintRows<S>& all, std::vector<typename S::Real>& impulses) {
     using Real = typename S::Real;
@@ -48,6 +48,11 @@ void projectImpulses(const ConstraintRows<S>& all, std::vector<typename S::Real>
         Real* r = impulses.data() + block.first;
         if (block.kind == BlockKind::Bounded) {
             r[0] = std::clamp(r[0], all.rows[block.first].lower, all.rows[block.first].upper);
+        } else if (block.kind == BlockKind::Moment) {
+            // The normal, of a block before, has been projected.
+            const Real bound = block.friction * (impulses[block.normal] + block.appliedNormal);
+            const Real length = std::hypot(r[0], block.rows > 1 ? r[1] : Real(0));
+            for (int i = 0; length > bound && i < block.rows; ++i) r[i] *= bound / length;
         } else if (block.kind == BlockKind::Contact) {
             Vec3 whole = Vec3::Zero();
             for (int i = 0; i < block.rows; ++i) whole[i] = r[i];

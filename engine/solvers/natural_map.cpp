@@ -51,6 +51,17 @@ R pressedResidual(const Eigen::Matrix<R, 3, 1>& r, const Eigen::Matrix<R, 3, 1>&
     return std::max(normal, friction);
 }
 
+/// Natural map of rolling or torsional friction: the disc |m| <= bound.
+template <class S>
+typename S::Real momentResidual(const Eigen::Matrix<typename S::Real, 2, 1>& m,
+                                const Eigen::Matrix<typename S::Real, 2, 1>& w, typename S::Real bound,
+                                typename S::Real rho) {
+    using Vec2 = Eigen::Matrix<typename S::Real, 2, 1>;
+    const Vec2 target = m - rho * w;
+    const typename S::Real length = target.norm();
+    return (m - (length > bound ? Vec2(target * (bound / length)) : target)).norm() / rho;
+}
+
 template <class S>
 typename S::Real rowDefect(const Row<S>& row, const Velocity<S>& a, const Velocity<S>& b) {
     return rowVelocity<S>(row, a, b) + row.bias + row.softness * row.impulse;
@@ -82,6 +93,11 @@ typename S::Real blockResidual(const ConstraintRows<S>& constraints, const Block
     for (int i = 0; i < block.rows; ++i) {
         r[i] = rows[i].impulse;
         w[i] = rowDefect<S>(rows[i], a, b);
+    }
+    if (block.kind == BlockKind::Moment) {
+        const Real pressed = constraints.rows[block.normal].impulse + block.appliedNormal;
+        return momentResidual<S>(r.template head<2>(), w.template head<2>(),
+                                 block.friction * std::max(Real(0), pressed), rows[0].invK);
     }
     return block.appliedNormal > 0
                ? pressedResidual<Real>(r, w, block.friction, block.staticFriction, block.appliedNormal,

@@ -7,6 +7,7 @@
 // [FacchineiPang2003, section 1.5]) and the residual its defect as a velocity:
 //     joint     |w|
 //     bounded   |lambda - clamp(lambda - rho w, lower, upper)| / rho
+//     moment    |r - P_D(r - rho w)| / rho,   D = {|r| <= rho_r r_n}  (rolling; torsional)
 //     contact   |r - P_K(r - rho (w + mu |w_t| n))| / rho,   K = {|r_t| <= mu r_n}
 // The contact law is Signorini's and Coulomb's together, by De Saxce's change of variable [DeSaxceFeng1998];
 // zero if and only if both hold exactly. rho = 1/K of the normal (of the row), which makes the measure the

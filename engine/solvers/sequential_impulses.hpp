@@ -10,6 +10,7 @@
 //     bounded   lambda := clamp(lambda - (J v + bias + softness lambda) / K, lower, upper)
 //     normal    lambda_n := max(0, lambda_n - (J_n v + bias + softness lambda_n) / K_nn)
 //     friction  lambda_t := friction law on J_t v + bias with limit mu lambda_n, both tangents at once
+//     moment    lambda_m := Coulomb's law on J_m v + bias with limit rho lambda_n, both rows of a block at once
 // It is the accumulated impulse that is clamped, not its increment [Catto2005].
 #pragma once
 
@@ -120,6 +121,30 @@ typename S::Real solveFriction(const SolverInput<S>& input, const Block<S>& bloc
     return residual;
 }
 
+/// Rolling or torsional friction. The world's friction law is that of sliding; this is the exact disc.
+template <class S>
+typename S::Real solveMoment(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                             Velocity<S>& b) {
+    using Real = typename S::Real;
+    using Vec2 = Eigen::Matrix<Real, 2, 1>;
+    Row<S>* rows = input.constraints.rows.data() + block.first;
+    Vec2 impulse = Vec2::Zero(), velocity = Vec2::Zero();
+    for (int i = 0; i < block.rows; ++i) {
+        impulse[i] = rows[i].impulse;
+        velocity[i] = rowVelocity<S>(rows[i], a, b) + rows[i].bias;
+    }
+    const Real limit = block.friction * (input.constraints.rows[block.normal].impulse + block.appliedNormal);
+    const Vec2 next = frictionCone<Real>(block.k11, block.k12, block.k22, impulse, velocity, limit);
+    Real residual = 0;
+    for (int i = 0; i < block.rows; ++i) {
+        const Real step = next[i] - impulse[i];
+        rows[i].impulse = next[i];
+        applyRowImpulse<S>(rows[i], block, step, a, b);
+        residual = std::max(residual, std::abs(step) / rows[i].invK);
+    }
+    return residual;
+}
+
 /// Order of the contacts' impulses: the later ones have priority.
 enum class ContactOrder : std::uint8_t {
     FrictionFirst,  ///< contact by contact, its normal
@@ -178,11 +203,14 @@ void solveRowByRow(const SolverInput<S>& input, ContactOrder order, BlockSweeps<
     const auto solveBlock = [&](std::size_t k) -> Real {
         if (blocks[k].kind == BlockKind::Joint) return solve(solveJointRows<S>, blocks[k]);
         if (blocks[k].kind == BlockKind::Bounded) return solve(solveBoundedRow<S>, blocks[k]);
+        if (blocks[k].kind == BlockKind::Moment)
+            return order == ContactOrder::FrictionFirst ? solve(solveMoment<S>, blocks[k]) : Real(0);
         const Real friction =
             order == ContactOrder::FrictionFirst ? solve(solveFriction<S>, blocks[k]) : Real(0);
         return std::max(friction, solve(solveNormal<S>, blocks[k]));
     };
     const auto solveBlockFriction = [&](std::size_t k) -> Real {
+        if (blocks[k].kind == BlockKind::Moment) return solve(solveMoment<S>, blocks[k]);
         return blocks[k].kind == BlockKind::Contact ? solve(solveFriction<S>, blocks[k]) : Real(0);
     };
     for (int i = 0; i < input.iterations; ++i) {

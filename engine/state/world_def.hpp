@@ -67,6 +67,10 @@ struct ShapeDef {
     Shape<S> shape;
     Pose<S> pose;                ///< shape frame in the body frame
     std::uint32_t material = 0;  ///< index from World::addMaterial; 0 is frictionless and inelastic
+    /// Velocity at which the surface moves over the body, as of a conveyor belt or a turntable: that of the point
+    /// at the origin of the body frame [m/s], and the angular velocity [rad/s], in the axes of the body frame. A
+    /// point x of the surface moves with v + w x x. Friction sees it, the normal does not.
+    Velocity<S> surfaceVelocity = {};
 };
 
 /// Coefficients of a pair of touching surfaces.
@@ -76,6 +80,12 @@ struct PairCoefficients {
     typename S::Real restitution = 0;  ///< coefficient in [0, 1]
     /// Contacts stick up to this and slide at `friction`; 0: at `friction` too. Else >= friction.
     typename S::Real staticFriction = 0;
+    /// Rolling resistance [m], >= 0: a moment of up to rollingFriction times the normal force opposes the relative
+    /// angular velocity in the tangent plane (2D: all of it).
+    typename S::Real rollingFriction = 0;
+    /// 3D, the same about the normal [m], >= 0: resistance to spinning.
+    typename S::Real torsionalFriction = 0;
+    bool hasMoments() const { return rollingFriction > 0 || (S::dim == 3 && torsionalFriction > 0); }
 };
 
 enum class JointType : std::uint8_t { Ball, ConeTwist, Distance, Fixed, Hinge, SixDof, Slider, Wheel };

@@ -18,7 +18,7 @@ bool JointGroup<S>::findBlocks(const ConstraintRows<S>& constraints) {
     changed_ = false;
     for (std::uint32_t i = 0; i < constraints.blocks.size(); ++i) {
         const Block<S>& block = constraints.blocks[i];
-        if (block.kind == BlockKind::Contact) continue;
+        if (isOfContact(block.kind)) continue;
         const Place place{i, block.invMassA > 0 ? block.a : kNullIndex,
                           block.invMassB > 0 ? block.b : kNullIndex, block.kind, block.rows};
         if (n == places_.size()) {

@@ -95,14 +95,20 @@ void AssembledProblem::readRows(const ConstraintRows<S>& rows) {
             } else if (block.kind == BlockKind::Contact) {
                 kind[i] = i == block.first ? RowKind::Normal : RowKind::Tangent;
                 lower[i] = 0;
+            } else if (block.kind == BlockKind::Moment) {
+                kind[i] = RowKind::Tangent;
             }
             W[i * n + i] += static_cast<double>(row.softness);
         }
         if (block.kind == BlockKind::Contact) {
             const auto mu = static_cast<double>(block.friction);
-            contacts.push_back({block.first, block.rows - std::size_t(1), mu,
+            contacts.push_back({block.first, block.rows - std::size_t(1), block.first + std::size_t(1), mu,
                                 std::max(mu, static_cast<double>(block.staticFriction)),
                                 static_cast<double>(block.appliedNormal)});
+        } else if (block.kind == BlockKind::Moment) {
+            const auto rho = static_cast<double>(block.friction);
+            contacts.push_back(
+                {block.normal, block.rows, block.first, rho, rho, static_cast<double>(block.appliedNormal)});
         }
     }
 }

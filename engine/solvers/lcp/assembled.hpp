@@ -28,8 +28,9 @@ enum class RowKind : std::uint8_t {
     Tangent   ///< friction, see AssembledContact
 };
 struct AssembledContact {
-    std::size_t normal = 0;  ///< row; its tangents follow
-    std::size_t tangents = 0;
+    std::size_t normal = 0;    ///< row that bounds the tangents
+    std::size_t tangents = 0;  ///< number of them
+    std::size_t first = 0;  ///< the first of them: normal + 1; other rows for rolling and torsional friction
     double mu = 0, muStatic = 0;  ///< muStatic >= mu
     double applied = 0;           ///< impulse applied on top of the normal's impulse in the limit of friction
 };

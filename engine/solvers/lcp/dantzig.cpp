@@ -202,7 +202,7 @@ class Dantzig final : public DirectRounds<S> {
 }  // namespace
 
 SolverTraits makeDantzigTraits() {
-    return {.friction = FrictionShape::Box, .direct = true, .stops = StopRule::Residual};
+    return {.friction = FrictionShape::Box, .direct = true, .stops = StopRule::Residual, .moments = false};
 }
 
 template <class S>

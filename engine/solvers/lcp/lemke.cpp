@@ -326,7 +326,8 @@ class Lemke final : public DirectRounds<S> {
 }  // namespace
 
 SolverTraits makeLemkeTraits() {
-    return {.friction = FrictionShape::Polygon, .direct = true, .stops = StopRule::Residual};
+    return {
+        .friction = FrictionShape::Polygon, .direct = true, .stops = StopRule::Residual, .moments = false};
 }
 
 template <class S>

@@ -51,7 +51,7 @@ class BlockGaussSeidel final : public Solver<S> {
     }
 
   private:
-    static bool isJoint(const Block<S>& block) { return block.kind != BlockKind::Contact; }
+    static bool isJoint(const Block<S>& block) { return !isOfContact(block.kind); }
 
     /// Sweeps over all groups but those of parts that are solved.
     void iterate(const SolverInput<S>& input) {
@@ -194,6 +194,10 @@ class BlockGaussSeidel final : public Solver<S> {
                 // Always forwards, which measurably calms stacks.
                 const Block<S>& block = input.constraints.blocks[first + k];
                 Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
+                if (block.kind == BlockKind::Moment) {
+                    largest = std::max(largest, solveMoment(input, block, a, b));
+                    continue;
+                }
                 const Real residual = solveNormal(input, block, a, b);
                 largest = std::max({largest, residual, solveFriction(input, block, a, b)});
             }

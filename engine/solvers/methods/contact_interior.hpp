@@ -18,7 +18,7 @@
 // redundant rows. Cost: 2/3 n^3 per step, some twenty steps whatever the number of contacts or the ratio of
 // masses. Known limits: no proof of convergence (a problem may have no solution); the last digits are left to
 // the Newton steps of contact_newton.hpp; static friction above that of sliding, and impulses from outside
-// the rows (Poisson's expansion) have no such form.
+// the rows (Poisson's expansion) have no such form, nor have rolling and torsional friction.
 #pragma once
 
 #include <vector>

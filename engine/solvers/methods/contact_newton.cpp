@@ -38,7 +38,7 @@ bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<do
         const std::size_t normal = contact.normal;
         const bool open = p.lambda[normal] - w_[normal] / p.at(normal, normal) <= 0;
         if (open && !(contact.applied > 0)) {
-            for (std::size_t t = 1; t <= contact.tangents; ++t) pin(normal + t, 0.0);
+            for (std::size_t t = 0; t < contact.tangents; ++t) pin(contact.first + t, 0.0);
         } else if (contact.tangents > 0) {
             tangentRows(p, contact, A);
         }
@@ -55,7 +55,7 @@ bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<do
 /// Sticking keeps w_t = 0. Sliding, with e = z_t / |z_t| and R = mu (lambda_n + applied):
 ///     d_t - e mu d_n - (R / |z_t|) (I - e e^T) (d_t - rho W_t d) = -(lambda_t - R e)
 void ContactNewton::tangentRows(const AssembledProblem& p, const AssembledContact& contact, double* A) {
-    const std::size_t n = p.n, first = contact.normal + 1, m = contact.tangents;
+    const std::size_t n = p.n, first = contact.first, m = contact.tangents;
     const double load = std::max(0.0, p.lambda[contact.normal]) + contact.applied;
     const double rho = 1 / p.at(first, first);
     double z[2] = {0, 0}, length = 0;

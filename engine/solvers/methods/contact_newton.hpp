@@ -9,6 +9,7 @@
 //     tangents of an open contact:                                                  lambda_t = 0
 //     tangents, |z_t| <= mu lambda_n (of sticking):                                 w_t = 0
 //     tangents else:                                     lambda_t = mu lambda_n z_t / |z_t|
+// (rolling and torsional friction are tangents too, with their own coefficient for mu)
 // are piecewise smooth; the step is that of the piece at lambda. Redundant rows make it singular, so W_ii
 // counts (1 + sigma) fold in the rows w = 0: the steps then converge linearly with a rate of about sigma over
 // the smallest relevant eigenvalue. A larger sigma keeps steps short where the matrix is nearly singular by

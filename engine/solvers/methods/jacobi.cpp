@@ -81,6 +81,12 @@ class Jacobi final : public Solver<S> {
                 const Real K = rowK<S>(rows[i], block);
                 rows[i].invK = K > 0 ? Real(1) / K : Real(0);
             }
+            if (block.kind == BlockKind::Moment) {
+                const Row<S>&t1 = rows[0], &t2 = rows[block.rows - 1];
+                block.k11 = rowCoupling<S>(t1, t1, block);
+                block.k12 = block.rows > 1 ? rowCoupling<S>(t1, t2, block) : Real(0);
+                block.k22 = block.rows > 1 ? rowCoupling<S>(t2, t2, block) : Real(1);
+            }
             if (block.kind == BlockKind::Contact && block.rows > 1) {
                 const Row<S>&t1 = rows[1], &t2 = rows[S::tangents];
                 block.k11 = rowCoupling<S>(t1, t1, block);
@@ -142,6 +148,7 @@ class Jacobi final : public Solver<S> {
                            Velocity<S>& b) {
         if (block.kind == BlockKind::Joint) return solveJointBlock(split, block, a, b);
         if (block.kind == BlockKind::Bounded) return solveBoundedRow(split, block, a, b);
+        if (block.kind == BlockKind::Moment) return solveMoment(split, block, a, b);
         const Real residual = solveNormal(split, block, a, b);
         return std::max(residual, solveFriction(split, block, a, b));
     }

@@ -8,7 +8,8 @@
 // With w = W r + b at one contact (r its impulse, b the velocity that all other impulses lead to, bias
 // included), the law is  K* > (w + mu |w_t| n)  _|_  r < K = {|r_t| <= mu r_n}  after De Saxce's change of
 // variable [DeSaxceFeng1998]. Each update solves this 3x3 problem exactly (contact_alone.hpp). Joints get
-// -K^-1 (w) as a block, bounded rows are clamped.
+// -K^-1 (w) as a block, bounded rows are clamped; rolling and torsional friction has the disc that its contact's
+// r_n bounds [AcaryBourrier2021].
 //
 // One iteration is a symmetric sweep (forwards, backwards) of all blocks, a fixed-point map g(r). Plain
 // iteration converges linearly and slowly for stacks; it is accelerated by Anderson's method of depth
@@ -41,6 +42,7 @@
 #include "engine/solvers/matrix_space.hpp"
 #include "engine/solvers/methods/contact_alone.hpp"
 #include "engine/solvers/methods/newton_finish.hpp"
+#include "engine/solvers/sequential_impulses.hpp"
 #include "engine/solvers/solver.hpp"
 #include "engine/solvers/traits.hpp"
 
@@ -152,6 +154,8 @@ class Nsgs final : public Solver<S> {
         } else if (block.kind == BlockKind::Bounded) {
             const Real old = rows[0].impulse;
             step[0] = std::clamp(old - rows[0].invK * step[0], rows[0].lower, rows[0].upper) - old;
+        } else if (block.kind == BlockKind::Moment) {
+            return solveMoment<S>(input, block, a, b);
         } else {
             Vec3<Real> r = Vec3<Real>::Zero(), w = Vec3<Real>::Zero();
             for (int i = 0; i < block.rows; ++i) {

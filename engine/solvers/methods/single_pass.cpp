@@ -30,7 +30,7 @@
 namespace rigor::engine {
 
 SolverTraits makeSinglePassTraits() {
-    return {.iterations = 1, .warmStarts = false};
+    return {.iterations = 1, .moments = false, .warmStarts = false};
 }
 
 namespace {
@@ -91,7 +91,8 @@ class SinglePass final : public Solver<S> {
                               Velocity<S>& a, Velocity<S>& b) {
         using Vec2 = Eigen::Matrix<Real, 2, 1>;
         Vec2 velocity = Vec2::Zero();
-        for (int i = 0; i < S::tangents; ++i) velocity[i] = rowVelocity<S>(rows[1 + i], a, b);
+        for (int i = 0; i < S::tangents; ++i)
+            velocity[i] = rowVelocity<S>(rows[1 + i], a, b) + rows[1 + i].bias;
         const Vec2 lambda = contactFriction<S>(input.friction, block, Vec2::Zero(), velocity, normal);
         for (int i = 0; i < S::tangents; ++i) {
             rows[1 + i].impulse += lambda[i];

@@ -33,7 +33,11 @@
 namespace rigor::engine {
 
 SolverTraits makeXpbdTraits() {
-    return {.substeps = 20, .iterations = 1, .errors = ErrorHandling::Positions, .warmStarts = false};
+    return {.substeps = 20,
+            .iterations = 1,
+            .errors = ErrorHandling::Positions,
+            .moments = false,
+            .warmStarts = false};
 }
 
 namespace {
@@ -169,7 +173,7 @@ class Xpbd final : public Solver<S> {
         Vec2 lambda = Vec2::Zero(), slip = Vec2::Zero();
         for (int i = 0; i < S::tangents; ++i) {
             lambda[i] = rows[1 + i].impulse;
-            slip[i] = problem.moved(block, rows[1 + i]);
+            slip[i] = problem.moved(block, rows[1 + i]) + input.h * rows[1 + i].bias;
         }
         const Vec2 next = contactFriction<S>(input.friction, block, lambda, slip, rows[0].impulse);
         Real removed = 0;

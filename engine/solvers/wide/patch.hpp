@@ -81,6 +81,8 @@ struct alignas(64) PatchBlock : PatchTorsion<S> {
     std::uint32_t movesA, movesB;        ///< one bit per lane: the body takes impulses
     std::int32_t points;                 ///< largest number of points of a lane
     std::uint32_t bounces;               ///< one bit per lane: restitution > 0
+    std::uint32_t driven;                ///< one bit per lane: the surfaces move over their bodies
+    std::uint32_t moments;               ///< one bit per lane: rolling or torsional friction > 0
     alignas(64) Lanes<Real> normal[PatchSize<S>::lin];
     Lanes<Real> offset[PatchSize<S>::lin];  ///< vector from the centre of mass of A to that of B [m]
     Lanes<Real> center[PatchSize<S>::lin];  ///< center of pressure, from the centre of mass of B [m]
@@ -93,7 +95,8 @@ struct alignas(64) PatchBlock : PatchTorsion<S> {
     Lanes<Real> frictionImpulse[PatchSize<S>::tangents], frictionTotal[PatchSize<S>::tangents];  ///< [N s]
 };
 
-/// Cold data: read at the beginning and at the end of a step, and for points with restitution.
+/// Cold data: read at the beginning and at the end of a step, for points with restitution, and for surfaces with
+/// velocities and moments.
 template <class S>
 struct alignas(64) PatchColdData {
     using Real = typename S::Real;
@@ -103,6 +106,13 @@ struct alignas(64) PatchColdData {
     // --- of each point, where block.bounces
     Lanes<Real> rebound[PatchSize<S>::points];   ///< bias e J v_0 of a point that hits, < 0 [m/s]; else 0
     Lanes<Real> inactive[PatchSize<S>::points];  ///< 1: the row is not solved in this sub-step
+    // --- where block.driven: velocity of B's surface against A's, as that of a body at B's centre of mass
+    Lanes<Real> surfaceV[PatchSize<S>::lin], surfaceW[PatchSize<S>::ang];
+    // --- where block.moments (moments-inl.hpp)
+    Lanes<Real> rollingFriction, torsionalFriction;  ///< [m]
+    Lanes<Real> rollingMass, torsionalMass;          ///< [kg m^2]
+    /// Angular impulse on B along the tangents and the normal, of the sub-step; its sum over the step [N m s].
+    Lanes<Real> moment[PatchSize<S>::ang], momentTotal[PatchSize<S>::ang];
 };
 
 /// Friction impulses of each point in world axes [N s]: input of preparation, output of distributeFriction.

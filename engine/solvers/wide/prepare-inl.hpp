@@ -14,6 +14,7 @@
 
 #include "engine/math/lanes-inl.hpp"
 #include "engine/solvers/wide/kernels.hpp"
+#include "engine/solvers/wide/moments-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace rigor::engine::HWY_NAMESPACE {
@@ -178,6 +179,7 @@ void prepareAll(const PatchRange<S>& range, const PatchInertia<S>* inertia) {
             const Preparation<S> preparation(range, inertia, k, first);
             preparation.normals();
             preparation.friction();
+            if (range.blocks[k].moments) prepareMoments<S>(range.blocks[k], range.cold[k], At<S>{first});
         }
 }
 

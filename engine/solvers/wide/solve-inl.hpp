@@ -25,6 +25,7 @@
 
 #include "engine/core/prefetch.hpp"
 #include "engine/solvers/wide/kernels.hpp"
+#include "engine/solvers/wide/moments-inl.hpp"
 #include "engine/state/bodies-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -174,6 +175,7 @@ HWY_INLINE void warmStart(PatchGroup<S, based>& p) {
     Num<S> torsion = hn::Zero(Tag<S>());
     if constexpr (S::dim == 3) torsion = p.at(block.torsionImpulse);
     p.applyFrictionImpulse(p.alongTangents(p.at(block.frictionImpulse)), torsion);
+    if (block.moments) applyMoment<S>(p, p.at(p.cold.moment));
 }
 
 /// Normal load of a patch: what bounds its friction.
@@ -297,7 +299,11 @@ template <class S, bool based>
 HWY_INLINE void solveFriction(PatchGroup<S, based>& p, const NormalLoad<S>& load, bool last) {
     PatchBlock<S>& block = p.block;
     constexpr std::size_t tangents = PatchSize<S>::tangents;
-    const Relative<S> u = p.velocity();
+    Relative<S> u = p.velocity();
+    if (block.driven) {
+        add(u.v, number<S>(1), p.at(p.cold.surfaceV));
+        add(u.w, number<S>(1), p.at(p.cold.surfaceW));
+    }
     LinVec<S> slip = u.v;
     add(slip, number<S>(1), turning(u.w, p.at(block.center)));
     const auto t = p.tangents();
@@ -374,7 +380,11 @@ HWY_INLINE void solveFrom(const PatchRange<S>& range, const PatchPass& pass) {
         }
         return p.block.points == 2 ? solveNormals<2>(p, pass) : solveNormals<1>(p, pass);
     };
-    forPatches<based>(range, [&](auto& p) RIGOR_INLINE_LAMBDA { solveFriction(p, normals(p), pass.last); });
+    forPatches<based>(range, [&](auto& p) RIGOR_INLINE_LAMBDA {
+        const NormalLoad<S> load = normals(p);
+        solveFriction(p, load, pass.last);
+        if (p.block.moments) solveMoments<S>(p, load.sum, pass.last);
+    });
 }
 template <class S>
 void solveAll(const PatchRange<S>& range, const PatchPass& pass) {
