@@ -222,7 +222,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
                 wakeBody(bodies, i);
         }
         for (const std::uint32_t i : {a, b}) goTo(world, i, t);
-        impactSolver_.begin(bodies, a, b, manifold,
+        impactSolver_.begin(bodies, shapes[hit.a], shapes[hit.b], manifold,
                             world.contacts.materials().pair(shapes[hit.a].material, shapes[hit.b].material));
         const Real impulse = impactSolver_.solve(bodies, world.friction, world.restitutionThreshold, true);
         for (const std::uint32_t i : {a, b})

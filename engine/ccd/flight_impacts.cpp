@@ -254,7 +254,7 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
     for (const std::uint32_t i : {a, b})
         if (flying_[i]) goTo(world, i, t);
     const PairCoefficients<S> coefficients = world.contacts.materials().pair(sa.material, sb.material);
-    impactSolver_.begin(bodies, a, b, manifold_, coefficients);
+    impactSolver_.begin(bodies, sa, sb, manifold_, coefficients);
     const Real impulse = impactSolver_.solve(bodies, world.friction, world.restitutionThreshold, bounces_);
     for (const std::uint32_t i : {a, b}) {
         if (!flying_[i]) continue;

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/constraints/moment_rows.hpp"
+#include "engine/contacts/contact.hpp"
+
 namespace rigor::engine {
 namespace {
 
@@ -38,9 +41,16 @@ template <class S>
 ImpactSolver<S>::ImpactSolver() : solver_(findAlgorithm(solverTable<S>(), "solver", "pgs").make()) {}
 
 template <class S>
-void ImpactSolver<S>::begin(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b,
-                            const Manifold<S>& manifold, const PairCoefficients<S>& coefficients) {
+void ImpactSolver<S>::begin(const BodyArrays<S>& bodies, const ShapeRecord<S>& shapeA,
+                            const ShapeRecord<S>& shapeB, const Manifold<S>& manifold,
+                            const PairCoefficients<S>& coefficients) {
     using Vec = typename S::Vec;
+    const std::uint32_t a = shapeA.body, b = shapeB.body;
+    const bool driven = shapeA.hasSurfaceVelocity || shapeB.hasSurfaceVelocity;
+    const Velocity<S> surfaceA = surfaceNow(bodies, shapeA), surfaceB = surfaceNow(bodies, shapeB);
+    const auto drive = [&](Row<S>& row) {
+        if (driven) row.bias = rowVelocity<S>(row, surfaceA, surfaceB);
+    };
     rows_.clear();
     restitution_ = coefficients.restitution;
     for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
@@ -69,6 +79,7 @@ void ImpactSolver<S>::begin(const BodyArrays<S>& bodies, std::uint32_t a, std::u
         if (block.friction > 0) {
             for (const Vec& t : tangentsOf(manifold.normal)) {
                 addRow(t);
+                drive(rows_.rows.back());
                 ++block.rows;
             }
             const Row<S>* t = rows_.rows.data() + block.first + 1;
@@ -78,6 +89,14 @@ void ImpactSolver<S>::begin(const BodyArrays<S>& bodies, std::uint32_t a, std::u
                 S::tangents > 1 ? rowCoupling<S>(t[S::tangents - 1], t[S::tangents - 1], block) : Real(1);
         }
         rows_.blocks.push_back(block);
+        if (!coefficients.hasMoments()) continue;
+        const std::size_t rows = rows_.rows.size(), blocks = rows_.blocks.size();
+        rows_.rows.resize(rows + static_cast<std::size_t>(momentRows<S>(coefficients)));
+        rows_.blocks.resize(blocks + static_cast<std::size_t>(momentBlocks<S>(coefficients)));
+        makeMomentBlocks<S>(block, coefficients, manifold.normal, tangentsOf(manifold.normal),
+                            bodies.invInertia, static_cast<std::uint32_t>(rows), rows_.blocks.data() + blocks,
+                            rows_.rows.data() + rows);
+        for (std::size_t k = rows; k < rows_.rows.size(); ++k) drive(rows_.rows[k]);
     }
 }
 
@@ -88,6 +107,7 @@ typename S::Real ImpactSolver<S>::solve(BodyArrays<S>& bodies, FrictionLaw<S> fr
     for (const Block<S>& block : rows_.blocks) {
         Row<S>& normal = rows_.rows[block.first];
         for (std::uint32_t r = 0; r < block.rows; ++r) rows_.rows[block.first + r].impulse = 0;
+        if (block.kind != BlockKind::Contact) continue;
         const Real approach = rowVelocity<S>(normal, bodies.velocity[block.a], bodies.velocity[block.b]);
         normal.bias = bounce && approach < -threshold ? restitution_ * approach : Real(0);
         fastest = std::max(fastest, std::abs(approach));
@@ -97,7 +117,8 @@ typename S::Real ImpactSolver<S>::solve(BodyArrays<S>& bodies, FrictionLaw<S> fr
     constexpr int kIterations = 100;  // four points of a box: 30 to double precision
     solver_->solve({rows_, bodies.velocity, friction, monitor, kIterations, Real(0), false});
     Real sum = 0;
-    for (const Block<S>& block : rows_.blocks) sum += rows_.rows[block.first].impulse;
+    for (const Block<S>& block : rows_.blocks)
+        if (block.kind == BlockKind::Contact) sum += rows_.rows[block.first].impulse;
     return sum;
 }
 

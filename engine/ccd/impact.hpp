@@ -4,6 +4,7 @@
 // The collision of two bodies at one instant.
 #pragma once
 
+#include "engine/contacts/shape_record.hpp"
 #include "engine/core/clone_ptr.hpp"
 #include "engine/narrowphase/manifold.hpp"
 #include "engine/solvers/solver.hpp"
@@ -13,7 +14,7 @@ namespace rigor::engine {
 
 /// Impulses at the points of one manifold by sequential impulses, whatever the world's solver: Newton's
 /// restitution e on the normal velocities u_0 from before, n . u >= -e n . u_0 (impulse > 0 only with
-/// equality), and the world's friction law. Other contacts and joints of the bodies are not considered.
+/// equality), the world's friction law on the velocities of the surfaces, rolling and torsional friction. Other contacts and joints of the bodies are not considered.
 template <class S>
 class ImpactSolver {
   public:
@@ -21,8 +22,8 @@ class ImpactSolver {
     ImpactSolver();
 
     /// The points of `manifold` become rows. bodies.invInertia is that of the instant.
-    void begin(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b, const Manifold<S>& manifold,
-               const PairCoefficients<S>& coefficients);
+    void begin(const BodyArrays<S>& bodies, const ShapeRecord<S>& a, const ShapeRecord<S>& b,
+               const Manifold<S>& manifold, const PairCoefficients<S>& coefficients);
     /// Changes the velocities of both bodies. Approaches slower than `threshold` do not bounce; `bounce`
     /// false: none does. Returns the sum of the normal impulses [N s].
     Real solve(BodyArrays<S>& bodies, FrictionLaw<S> friction, Real threshold, bool bounce);

@@ -72,6 +72,16 @@ class Poisson final : public Restitution<S> {
             block.appliedNormal = block.restitution * saved_[block.first].compression;
             applyRowImpulse<S>(normal, block, block.appliedNormal, velocities[block.a], velocities[block.b]);
         });
+        shareWithMoments(rows);
+    }
+
+    /// Rolling and torsional friction have the normal impulse of the point whose block they follow.
+    static void shareWithMoments(ConstraintRows<S>& rows) {
+        Real applied = 0;
+        for (Block<S>& block : rows.blocks) {
+            if (block.kind == BlockKind::Contact) applied = block.appliedNormal;
+            if (block.kind == BlockKind::Moment) block.appliedNormal = applied;
+        }
     }
 
     void finish(ConstraintRows<S>& rows, std::span<Velocity<S>> velocities) {
@@ -88,6 +98,7 @@ class Poisson final : public Restitution<S> {
             normal.bias = normal.relaxedBias =
                 std::min(Real(0), -rowVelocity<S>(normal, velocities[block.a], velocities[block.b]));
         });
+        shareWithMoments(rows);
     }
 
     std::vector<Saved> saved_;
