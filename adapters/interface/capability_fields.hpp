@@ -14,7 +14,8 @@ template <class C, class Visit>
 void forEachCapability(C& capabilities, Visit&& visit) {
     auto& [dynamics, collision, broadPhase, dimensions, planar, shapes, joints, contactImpulses,
            signedDistance, queryOptions, kinematicBodies, damping, gravityScale, centerOfMassOffset,
-           contactSolvers, staticFriction, libraryLacks] = capabilities;
+           contactSolvers, staticFriction, rollingFriction, torsionalFriction, surfaceVelocity,
+           libraryLacks] = capabilities;
     visit("dynamics", dynamics);
     visit("collision", collision);
     visit("broad_phase", broadPhase);
@@ -31,6 +32,9 @@ void forEachCapability(C& capabilities, Visit&& visit) {
     visit("center_of_mass_offset", centerOfMassOffset);
     visit("contact_solvers", contactSolvers);
     visit("static_friction", staticFriction);
+    visit("rolling_friction", rollingFriction);
+    visit("torsional_friction", torsionalFriction);
+    visit("surface_velocity", surfaceVelocity);
     visit("library_lacks", libraryLacks);
 }
 

@@ -150,6 +150,8 @@ void checkBody(const Body& body, const Scenario& scenario) {
         if (body.shapes[i].material < 0 ||
             body.shapes[i].material >= static_cast<int>(scenario.materials.size()))
             refuse(at + ".material", "index out of range");
+        checkFinite(at + ".surface_velocity", body.shapes[i].surfaceVelocity.linear);
+        checkFinite(at + ".surface_velocity", body.shapes[i].surfaceVelocity.angular);
         if (scenario::isStaticOnly(body.shapes[i].geometry) && body.type != BodyType::Static)
             refuse(at, "half-spaces, segments and surfaces belong to static bodies");
     }
@@ -231,6 +233,17 @@ void checkScenarioInput(const Scenario& scenario, double dt) {
         if (!(restitution >= 0.0 && restitution <= 1.0))
             refuse(where + ".restitution", "expected a value in [0, 1]");
     };
+    const auto lengths = [&](const std::string& where, double rolling, double torsional) {
+        if (!(std::isfinite(rolling) && rolling >= 0.0))
+            refuse(where + ".rolling_friction", "expected a value >= 0");
+        if (!(std::isfinite(torsional) && torsional >= 0.0))
+            refuse(where + ".torsional_friction", "expected a value >= 0");
+        if (scenario.dimension == 2 && torsional > 0.0)
+            refuse(where + ".torsional_friction", "expected 0 in two dimensions");
+    };
+    for (const auto& m : scenario.materials)
+        lengths("material '" + m.name + "'", m.rollingFriction, m.torsionalFriction);
+    for (const auto& p : scenario.pairs) lengths("material pair", p.rollingFriction, p.torsionalFriction);
     for (const auto& m : scenario.materials)
         coefficients("material '" + m.name + "'", m.friction, m.restitution, m.staticFriction);
     for (const auto& p : scenario.pairs)
@@ -282,6 +295,8 @@ void checkBodies(const Scenario& scenario, const Capabilities& capabilities, con
             const std::string name = geometryName(shape.geometry, scenario.dimension);
             if (body.collides && !contains(capabilities.shapes, name))
                 lacks(name, "shape '" + name + "'", user);
+            if (body.collides && shape.surfaceVelocity.moves() && !capabilities.surfaceVelocity)
+                lacks("surface_velocity", "velocity of a surface over its body", user);
         }
         if (body.type == BodyType::Kinematic && !capabilities.kinematicBodies)
             lacks("kinematic_bodies", "kinematic bodies", user);
@@ -323,6 +338,20 @@ void checkSupported(const Scenario& scenario, const Capabilities& capabilities, 
             std::any_of(scenario.pairs.begin(), scenario.pairs.end(), sticks))
             lacks("static_friction", "static friction apart from that of sliding");
     }
+    const auto anySurface = [&](auto member) {
+        const auto is = [&](const auto& m) { return m.*member > 0.0; };
+        return std::any_of(scenario.materials.begin(), scenario.materials.end(), is);
+    };
+    const auto anyPair = [&](auto member) {
+        const auto is = [&](const auto& m) { return m.*member > 0.0; };
+        return std::any_of(scenario.pairs.begin(), scenario.pairs.end(), is);
+    };
+    if (!capabilities.rollingFriction && (anySurface(&scenario::Material::rollingFriction) ||
+                                          anyPair(&scenario::MaterialPair::rollingFriction)))
+        lacks("rolling_friction", "rolling friction");
+    if (!capabilities.torsionalFriction && (anySurface(&scenario::Material::torsionalFriction) ||
+                                            anyPair(&scenario::MaterialPair::torsionalFriction)))
+        lacks("torsional_friction", "torsional friction");
     checkBodies(scenario, capabilities, lacks);
     checkJoints(scenario, capabilities, lacks);
 }

@@ -109,6 +109,9 @@ struct Capabilities {
     bool kinematicBodies = false, damping = false, gravityScale = false, centerOfMassOffset = false;
     bool contactSolvers = false;  ///< solves contact problems (contact_problem.hpp)
     bool staticFriction = false;  ///< contacts that stick up to a coefficient above that of sliding
+    bool rollingFriction = false,
+         torsionalFriction = false;  ///< moments bounded by a length times the normal force
+    bool surfaceVelocity = false;    ///< shapes whose surfaces move over their bodies
     /// Features that the library itself does not have, each with the document of its authors that says so
     /// (manual and chapter, or header and declaration), by name: of `shapes` and `joints` as above,
     /// "dynamics", "2D", "3D", or a flag above in snake_case ("static_friction"). Everything else that is

@@ -126,8 +126,8 @@ class RigorStaged final : public StagedWorld {
     static void fill(StagedRow& out, const engine::Block<S>& block, const engine::Row<S>& row,
                      std::uint32_t place) {
         using Kind = StagedRow::Kind;
-        if (block.kind == engine::BlockKind::Contact)
-            out.kind = place == 0 ? Kind::Normal : Kind::Friction;
+        if (engine::isOfContact(block.kind))
+            out.kind = place == 0 && block.kind == engine::BlockKind::Contact ? Kind::Normal : Kind::Friction;
         else
             out.kind = block.kind == engine::BlockKind::Joint ? Kind::Joint : Kind::Limit;
         out.bodyA = ScenarioIndices::body(block.a);

@@ -265,17 +265,17 @@ class RigorWorld final : public World, public StateSetting {
             });
         };
         const int count = scenario_.materials.size();
-        for (const scenario::Material& m : scenario_.materials)
-            world_.addMaterial(static_cast<R>(m.friction), static_cast<R>(m.restitution),
-                               static_cast<R>(m.staticFriction));
+        for (const scenario::Material& m : scenario_.materials) world_.addMaterial(toEngineCoefficients(m));
         for (int a = 0; a < count; ++a)
             for (int b = a; b < count; ++b) {
                 if (ownRule && !named(a, b)) continue;
-                const scenario::PairCoefficients& c = pairs_.coefficients(a, b);
-                world_.setPair(material(a), material(b),
-                               {static_cast<R>(c.friction), static_cast<R>(c.restitution),
-                                static_cast<R>(c.staticFriction)});
+                world_.setPair(material(a), material(b), toEngineCoefficients(pairs_.coefficients(a, b)));
             }
+    }
+    template <class Surface>
+    static engine::PairCoefficients<S> toEngineCoefficients(const Surface& c) {
+        return {static_cast<R>(c.friction), static_cast<R>(c.restitution), static_cast<R>(c.staticFriction),
+                static_cast<R>(c.rollingFriction), static_cast<R>(c.torsionalFriction)};
     }
 
     void addBody(const scenario::Body& body) {
@@ -302,6 +302,8 @@ class RigorWorld final : public World, public StateSetting {
             shape.shape = toEngineShape<S>(body.shapes[i].geometry);
             shape.pose = toEnginePose<S>(body.shapes[i].pose);
             shape.material = material(body.shapes[i].material);
+            const scenario::SurfaceVelocity& surface = body.shapes[i].surfaceVelocity;
+            shape.surfaceVelocity = {toEngineVec<S>(surface.linear), toEngineAng<S>(surface.angular)};
             const engine::ShapeId shapeId = world_.addShape(added, shape);
             indices_.shape.resize(shapeId.index + 1);
             indices_.shape[shapeId.index] = i;

@@ -50,10 +50,17 @@ void readMaterials(const Node& root, Scenario& s) {
         if (const auto f = n.find("friction")) target.friction = f->number(0.0, 1e6);
         if (const auto e = n.find("restitution")) target.restitution = e->number(0.0, 1.0);
         if (const auto k = n.find("static_friction")) target.staticFriction = k->number(target.friction, 1e6);
+        if (const auto r = n.find("rolling_friction")) target.rollingFriction = r->number(0.0, 1e6);
+        if (const auto t = n.find("torsional_friction")) {
+            target.torsionalFriction = t->number(0.0, 1e6);
+            if (t->dimension() == 2)
+                t->problem("material.dimension", "torsional friction", "rolling_friction, or 3 dimensions");
+        }
     };
     if (const auto list = root.find("materials"))
         for (const auto& [name, node] : list->members()) {
-            node.isObject({"friction", "static_friction", "restitution", "density"});
+            node.isObject({"friction", "static_friction", "restitution", "density", "rolling_friction",
+                           "torsional_friction"});
             Material material;
             material.name = name;
             coefficients(node, material);
@@ -62,7 +69,8 @@ void readMaterials(const Node& root, Scenario& s) {
         }
     if (const auto list = root.find("pairs"))
         for (const Node& node : list->items()) {
-            node.isObject({"a", "b", "friction", "static_friction", "restitution"});
+            node.isObject({"a", "b", "friction", "static_friction", "restitution", "rolling_friction",
+                           "torsional_friction"});
             MaterialPair pair;
             if (const auto n = node.require("a")) pair.a = readMaterialName(*n, s);
             if (const auto n = node.require("b")) pair.b = readMaterialName(*n, s);

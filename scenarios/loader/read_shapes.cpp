@@ -172,11 +172,12 @@ std::string kindNames(int dimension) {
 
 Shape readShape(const Node& node, const Scenario& scenario, int defaultMaterial) {
     Shape shape;
-    node.isObject({"sphere",        "circle",         "box",      "capsule",
-                   "cylinder",      "cone",           "hull",     "polygon",
-                   "half_space",    "half_plane",     "segment",  "chain",
-                   "triangle_mesh", "height_field",   "material", "position",
-                   "orientation",   "axis_angle_deg", "angle",    "angle_deg"});
+    node.isObject({"sphere",          "circle",         "box",      "capsule",
+                   "cylinder",        "cone",           "hull",     "polygon",
+                   "half_space",      "half_plane",     "segment",  "chain",
+                   "triangle_mesh",   "height_field",   "material", "position",
+                   "orientation",     "axis_angle_deg", "angle",    "angle_deg",
+                   "surface_velocity"});
     const Kind* found = nullptr;
     for (const Kind& kind : kKinds) {
         if (!node.has(kind.key)) continue;
@@ -197,6 +198,11 @@ Shape readShape(const Node& node, const Scenario& scenario, int defaultMaterial)
     shape.pose.orientation = readOrientation(node);
     shape.material = defaultMaterial;
     if (const auto material = node.find("material")) shape.material = readMaterialName(*material, scenario);
+    if (const auto surface = node.find("surface_velocity")) {
+        surface->isObject({"linear", "angular"});
+        if (const auto n = surface->find("linear")) shape.surfaceVelocity.linear = n->vector();
+        if (const auto n = surface->find("angular")) shape.surfaceVelocity.angular = n->angularVector();
+    }
     if (shape.material == kNone) {
         node.problem("material.missing", "no material", "the key 'material' here or at the body");
         shape.material = 0;

@@ -76,6 +76,8 @@ class Writer {
     static Json coefficients(const Surface& m) {
         Json out{{"friction", m.friction}, {"restitution", m.restitution}};
         if (m.staticFriction > 0.0) out["static_friction"] = m.staticFriction;
+        if (m.rollingFriction > 0.0) out["rolling_friction"] = m.rollingFriction;
+        if (m.torsionalFriction > 0.0) out["torsional_friction"] = m.torsionalFriction;
         return out;
     }
     static Json bench(const BenchPlan& plan) {
@@ -143,6 +145,9 @@ class Writer {
             std::visit([this](const auto& g) { return geometry(g); }, s.geometry);
         out["material"] = materialName(s.material);
         pose(out, s.pose);
+        if (s.surfaceVelocity.moves())
+            out["surface_velocity"] = {{"linear", vector(s.surfaceVelocity.linear)},
+                                       {"angular", angular(s.surfaceVelocity.angular)}};
         return out;
     }
     static const char* typeName(BodyType type) {

@@ -88,7 +88,8 @@ std::vector<std::string> Joint::features() const {
 PairCoefficients pairCoefficients(const Scenario& scenario, int materialA, int materialB) {
     for (const MaterialPair& pair : scenario.pairs)
         if ((pair.a == materialA && pair.b == materialB) || (pair.a == materialB && pair.b == materialA))
-            return {pair.friction, pair.restitution, pair.staticFriction};
+            return {pair.friction, pair.restitution, pair.staticFriction, pair.rollingFriction,
+                    pair.torsionalFriction};
     const Material& a = scenario.materials[materialA];
     const Material& b = scenario.materials[materialB];
     const double friction = std::sqrt(a.friction * b.friction);
@@ -96,7 +97,15 @@ PairCoefficients pairCoefficients(const Scenario& scenario, int materialA, int m
     if (a.staticFriction > 0.0 || b.staticFriction > 0.0)
         sticking = std::max(friction, std::sqrt(std::max(a.friction, a.staticFriction) *
                                                 std::max(b.friction, b.staticFriction)));
-    return {friction, std::min(a.restitution, b.restitution), sticking};
+    return {friction, std::min(a.restitution, b.restitution), sticking,
+            std::sqrt(a.rollingFriction * b.rollingFriction),
+            std::sqrt(a.torsionalFriction * b.torsionalFriction)};
+}
+
+Vec3 surfaceVelocityAt(const Shape& shape, const Pose& body, Vec3 point) {
+    const SurfaceVelocity& s = shape.surfaceVelocity;
+    return rotate(body.orientation, s.linear) +
+           cross(rotate(body.orientation, s.angular), point - body.position);
 }
 
 int findBody(const Scenario& scenario, const std::string& name) {

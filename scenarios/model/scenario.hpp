@@ -92,10 +92,19 @@ using Geometry = std::variant<Sphere, Box, Capsule, Cylinder, Cone, ConvexHull, 
 /// "chain", "triangle_mesh", "height_field".
 const char* geometryName(const Geometry& geometry, int dimension);
 
+/// Velocity of a shape's surface over its body, as of a conveyor belt or a turntable: a point x of the body frame moves
+/// with linear + angular x x, in the axes of the body frame. Friction acts on surfaces; the normal does not see it.
+struct SurfaceVelocity {
+    Vec3 linear;   ///< at the origin of the body frame [m/s]
+    Vec3 angular;  ///< [rad/s]; in 2D z alone
+    bool moves() const { return norm(linear) > 0.0 || norm(angular) > 0.0; }
+};
+
 struct Shape {
     Geometry geometry;
     Pose pose;         ///< shape frame in the body frame
     int material = 0;  ///< index into Scenario::materials
+    SurfaceVelocity surfaceVelocity = {};
 };
 
 // -------------------------------------------------------------------------------------------- materials
@@ -105,6 +114,10 @@ struct Material {
     double restitution = 0.0;     ///< Newton's coefficient, in [0, 1]
     double density = 1000.0;      ///< [kg/m^3] (2D: [kg/m^2]); used when a body gives no mass
     double staticFriction = 0.0;  ///< contacts stick up to this; 0: up to friction; else >= friction
+    double rollingFriction =
+        0.0;  ///< rolling resistance as a length [m]: a moment of up to this times the normal
+              ///< force opposes the relative angular velocity in the tangent plane
+    double torsionalFriction = 0.0;  ///< 3D, the same about the normal [m]
 };
 
 /// Coefficients that replace the combination rule for one unordered pair of materials.
@@ -113,13 +126,15 @@ struct MaterialPair {
     double friction = 0.0;
     double restitution = 0.0;
     double staticFriction = 0.0;
+    double rollingFriction = 0.0, torsionalFriction = 0.0;  ///< [m]
 };
 
 /// Coefficients of a pair of touching surfaces. Every adapter makes its engine use exactly these.
 struct PairCoefficients {
     double friction = 0.0;
     double restitution = 0.0;
-    double staticFriction = 0.0;  ///< 0: the same as friction
+    double staticFriction = 0.0;                            ///< 0: the same as friction
+    double rollingFriction = 0.0, torsionalFriction = 0.0;  ///< [m]
 };
 
 // ---------------------------------------------------------------------------------------------- bodies
@@ -286,7 +301,11 @@ struct Scenario {
     std::optional<BenchPlan> bench;  ///< plan for scenes that are timed
 };
 
-/// Friction and restitution of two materials: the pair table's, else sqrt(mu_a mu_b) and min(e_a, e_b).
+/// Velocity of the surface of a shape over its body at a point, when the body has this pose: world frame [m/s].
+Vec3 surfaceVelocityAt(const Shape& shape, const Pose& body, Vec3 point);
+
+/// Coefficients of two materials: the pair table's, else min(e_a, e_b) of restitution and sqrt(x_a x_b) of all
+/// kinds of friction.
 PairCoefficients pairCoefficients(const Scenario& scenario, int materialA, int materialB);
 
 /// Index of the named body, or kNone.

@@ -103,6 +103,17 @@ const std::vector<Fault>& faults() {
              s.materials[0].friction = 0.5;
              s.materials[0].staticFriction = 0.4;
          }},
+        {"negative rolling friction", "rolling_friction",
+         [](Scenario& s) { s.materials[0].rollingFriction = -0.1; }},
+        {"nan torsional friction", "torsional_friction",
+         [](Scenario& s) { s.materials[0].torsionalFriction = kNan; }},
+        {"torsional friction in the plane", "torsional_friction",
+         [](Scenario& s) {
+             s.dimension = 2;
+             s.materials[0].torsionalFriction = 0.1;
+         }},
+        {"infinite belt", "surface_velocity",
+         [](Scenario& s) { s.bodies[0].shapes[0].surfaceVelocity.linear.x = INFINITY; }},
         {"restitution above one", "restitution", [](Scenario& s) { s.materials[0].restitution = 1.1; }},
         {"joint to a body that is not there", "joint", [](Scenario& s) { s.joints[0].bodyB = 7; }},
         {"joint to itself", "itself", [](Scenario& s) { s.joints[0].bodyA = 1; }},
@@ -170,6 +181,11 @@ TEST(Supported, TheFirstThingMissingIsNamed) {
     };
     refuses("static friction",
             [](Scenario& s) { s.materials[0].staticFriction = s.materials[0].friction + 1; });
+    refuses("rolling friction", [](Scenario& s) { s.materials[0].rollingFriction = 0.1; });
+    refuses("torsional friction", [](Scenario& s) { s.materials[0].torsionalFriction = 0.1; });
+    refuses("velocity of a surface", [](Scenario& s) {
+        s.bodies[0].shapes[0].surfaceVelocity.linear = {1, 0, 0};
+    });
     refuses("capsule", [](Scenario& s) { s.bodies[1].shapes[0].geometry = Capsule{0.1, 0.2}; });
     refuses("hinge", [](Scenario& s) { s.joints[0].type = JointType::Hinge; });
     refuses("2D", [](Scenario& s) { s.dimension = 2; });

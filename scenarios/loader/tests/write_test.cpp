@@ -99,6 +99,8 @@ void expectSameBody(const Body& a, const Body& b, int dimension) {
     ASSERT_EQ(a.shapes.size(), b.shapes.size());
     for (std::size_t k = 0; k < a.shapes.size(); ++k) {
         EXPECT_EQ(a.shapes[k].material, b.shapes[k].material);
+        EXPECT_EQ(a.shapes[k].surfaceVelocity.linear, b.shapes[k].surfaceVelocity.linear);
+        EXPECT_EQ(a.shapes[k].surfaceVelocity.angular, b.shapes[k].surfaceVelocity.angular);
         EXPECT_LT(apart(a.shapes[k].pose, b.shapes[k].pose), kUlps);
         std::visit(SameGeometry{}, a.shapes[k].geometry, b.shapes[k].geometry);
     }
@@ -184,6 +186,8 @@ TEST_P(WrittenScenario, IsReadBackAsItWasWritten) {
             EXPECT_EQ(one.friction, other.friction);
             EXPECT_EQ(one.restitution, other.restitution);
             EXPECT_EQ(one.staticFriction, other.staticFriction);
+            EXPECT_EQ(one.rollingFriction, other.rollingFriction);
+            EXPECT_EQ(one.torsionalFriction, other.torsionalFriction);
         }
     }
     ASSERT_EQ(a.bodies.size(), b.bodies.size());

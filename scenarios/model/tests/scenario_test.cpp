@@ -36,6 +36,25 @@ TEST(PairCoefficients, RuleThenTable) {
     s.materials[1].staticFriction = 1.6;
     EXPECT_DOUBLE_EQ(pairCoefficients(s, 0, 1).staticFriction, std::sqrt(0.4 * 1.6));
     EXPECT_EQ(pairCoefficients(s, 0, 0).staticFriction, 0);
+    s.materials[0].rollingFriction = 0.01;
+    s.materials[0].torsionalFriction = 0.02;
+    EXPECT_EQ(pairCoefficients(s, 0, 1).rollingFriction, 0) << "both surfaces have a share in it";
+    s.materials[1].rollingFriction = s.materials[1].torsionalFriction = 0.04;
+    EXPECT_DOUBLE_EQ(pairCoefficients(s, 0, 1).rollingFriction, 0.02);
+    EXPECT_DOUBLE_EQ(pairCoefficients(s, 0, 1).torsionalFriction, std::sqrt(8e-4));
+    s.pairs = {{1, 0, 0.25, 0.05}};
+    EXPECT_EQ(pairCoefficients(s, 0, 1).rollingFriction, 0) << "the table says none";
+}
+
+TEST(SurfaceVelocity, IsAFieldOfTheBodyFrame) {
+    Shape belt;
+    belt.surfaceVelocity = {{1, 0, 0}, {0, 0, 2}};
+    const Pose body{{3, 0, 0}, fromAxisAngle({0, 0, 1}, std::acos(0.0))};
+    // At the local point (0, -1, 0): (1, 0, 0) + (0, 0, 2) x (0, -1, 0) = (3, 0, 0), which points along y.
+    const Vec3 v = surfaceVelocityAt(belt, body, {4, 0, 0});
+    EXPECT_LT(norm(v - Vec3{0, 3, 0}), 1e-15);
+    EXPECT_TRUE(belt.surfaceVelocity.moves());
+    EXPECT_FALSE(Shape{}.surfaceVelocity.moves());
 }
 
 TEST(FindBody, ByName) {
