@@ -39,11 +39,12 @@ class Box2dEngine final : public adapter::Engine, public adapter::DynamicsEngine
                     "distance.limit", "distance.break", "distance.spring", "wheel",        "wheel.limit",
                     "wheel.motor",    "wheel.spring",   "wheel.break",     "six_dof",      "six_dof.limit",
                     "six_dof.motor",  "six_dof.spring", "six_dof.break"};
-        c.contactImpulses = c.signedDistance = true;
+        c.contactImpulses = c.signedDistance = c.surfaceVelocity = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.libraryLacks = {
             {"3D", kTwoDimensions},
             {"distance.motor", "b2_distance_joint.h, b2DistanceJointDef: length, bounds and spring"},
+            {"rolling_friction", "b2_fixture.h, b2FixtureDef: friction and restitution, none of rolling"},
             {"static_friction", "b2_fixture.h, b2FixtureDef::friction: the one coefficient of friction"}};
         return c;
     }

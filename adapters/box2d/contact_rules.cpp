@@ -5,6 +5,7 @@
 // added, v' = v + dt a, so a ball leaves with e (v + g dt) and gains energy at every bounce. The corrected
 // coefficient e v / v' makes it leave with e v.
 #include "adapters/box2d/contact_rules.hpp"
+#include "adapters/box2d/convert.hpp"
 
 #include <stdexcept>
 
@@ -61,6 +62,30 @@ void ContactRules::PreSolve(b2Contact* contact, const b2Manifold*) {
     contact->SetFriction(static_cast<float>(pair.friction));
     contact->SetRestitutionThreshold(settings_.restitutionThreshold);
     contact->SetRestitution(restitutionFor(*contact, static_cast<float>(pair.restitution)));
+    contact->SetTangentSpeed(tangentSpeed(*contact));
+}
+
+/// b2ContactSolver makes b2Cross(normal, 1) . (vB - vA) this speed; the surfaces stick where it is that of A's
+/// surface against B's over their bodies. One speed serves both points of a manifold: the mean of theirs.
+float ContactRules::tangentSpeed(const b2Contact& contact) const {
+    const b2Fixture *a = contact.GetFixtureA(), *b = contact.GetFixtureB();
+    if (tagOf(a).source == nullptr && tagOf(b).source == nullptr) return 0.0f;
+    b2WorldManifold manifold;
+    contact.GetWorldManifold(&manifold);
+    const int count = contact.GetManifold()->pointCount;
+    const auto surface = [&](const b2Fixture* fixture, const b2Vec2& point) {
+        const FixtureTag& tag = tagOf(fixture);
+        if (tag.source == nullptr) return Vec3{};
+        const b2Body* body = fixture->GetBody();
+        const Pose pose = fromBox2d(body->GetPosition(), body->GetAngle(), settings_.scale) * tag.frame;
+        return surfaceVelocityAt(*tag.source, pose, fromBox2d(point, settings_.scale));
+    };
+    const b2Vec2 tangent = b2Cross(manifold.normal, 1.0f);
+    float sum = 0.0f;
+    for (int i = 0; i < count; ++i)
+        sum += b2Dot(tangent, toBox2d(surface(a, manifold.points[i]) - surface(b, manifold.points[i]),
+                                      settings_.scale));
+    return count > 0 ? sum / static_cast<float>(count) : 0.0f;
 }
 
 /// One coefficient serves both points of a manifold: the mean of their speeds decides.

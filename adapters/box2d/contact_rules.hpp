@@ -14,6 +14,8 @@ namespace rigor::box2d {
 /// Data behind b2FixtureUserData::pointer.
 struct FixtureTag {
     int body = 0, shape = 0, material = 0;
+    const scenario::Shape* source = nullptr;  ///< null where its surface does not move
+    adapter::Pose frame = {};                 ///< the scenario's body frame in that of the Box2D body [m]
 };
 
 /// Data behind b2BodyUserData::pointer: the force and torque of the coming step [Box2D units].
@@ -28,6 +30,7 @@ class ContactRules final : public b2ContactListener, public b2ContactFilter {
         float dt = 0.0f;
         bool correctRestitution = false;
         float restitutionThreshold = 1.0f;  ///< [Box2D lengths / s]
+        double scale = 1.0;                 ///< Box2D lengths per metre
     };
     ContactRules(const adapter::PairTable& pairs, const Settings& settings)
         : pairs_(pairs), settings_(settings) {}
@@ -41,6 +44,7 @@ class ContactRules final : public b2ContactListener, public b2ContactFilter {
 
   private:
     float restitutionFor(b2Contact& contact, float restitution) const;
+    float tangentSpeed(const b2Contact& contact) const;
 
     const adapter::PairTable& pairs_;
     Settings settings_;

@@ -43,6 +43,7 @@ Box2dWorld::Box2dWorld(const adapter::Scenario& scenario, double dt, const adapt
     positionIterations_ = adapter::integerSetting(settings_, "position_iterations");
     shapes_ = shapeSettings();
     ContactRules::Settings rules;
+    rules.scale = scale_;
     rules.dt = static_cast<float>(dt_);
     rules.correctRestitution = is("restitution", "corrected");
     rules.restitutionThreshold =
@@ -109,7 +110,9 @@ void Box2dWorld::addFixtures(BodyRecord& record, int index) {
     const Pose toBody = inverse(record.frame);
     for (std::size_t i = 0; i < source.shapes.size(); ++i) {
         const scenario::Shape& shape = source.shapes[i];
-        auto tag = std::make_unique<FixtureTag>(FixtureTag{index, static_cast<int>(i), shape.material});
+        auto tag = std::make_unique<FixtureTag>(
+            FixtureTag{index, static_cast<int>(i), shape.material, nullptr, toBody});
+        if (shape.surfaceVelocity.moves()) tag->source = &shape;
         for (const auto& part :
              buildGeometry(shape.geometry, toBody * shape.pose, source.pose * record.frame, shapes_)) {
             b2FixtureDef fixture;

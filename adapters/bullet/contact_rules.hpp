@@ -18,7 +18,9 @@ namespace rigor::bullet {
 struct BodyTag {
     const adapter::PairTable* table = nullptr;
     int body = 0;
-    std::vector<int> materials;  ///< material by shape index
+    std::vector<int> materials;              ///< material by shape index
+    const scenario::Body* source = nullptr;  ///< null where no surface moves
+    adapter::Pose frame;                     ///< the scenario's body frame in Bullet's, at the centre of mass
     int materialOf(int shape) const;
 };
 

@@ -44,6 +44,21 @@ std::vector<LedgerEntry> BulletWorld::ledger() const {
         pyramid ? "a square pyramid, turned so that one axis follows the sliding velocity"
                 : "along the sliding velocity; where nothing slides, one fixed tangent alone is held");
     add("friction_pair", "pair table", "written into each contact point");
+    const auto examples = pairs_.examples();
+    const auto has = [&](double scenario::PairCoefficients::*coefficient) {
+        return std::any_of(examples.begin(), examples.end(), [&](const adapter::PairTable::Example& m) {
+            return pairs_.coefficients(m.materialA, m.materialB).*coefficient > 0.0;
+        });
+    };
+    for (const auto& [name, coefficient] :
+         {std::pair("rolling_friction", &scenario::PairCoefficients::rollingFriction),
+          std::pair("torsional_friction", &scenario::PairCoefficients::torsionalFriction)})
+        if (has(coefficient))
+            add(name, "moment up to the coefficient times the normal impulse",
+                "row by row, up to the coefficient times the normal impulse and 1 N s",
+                Realisation::Approximate,
+                "Bullet bounds the moment by the coefficient alone where the impulse of a step is above 1 N "
+                "s");
     add("restitution", "pair coefficient, no threshold",
         "pair coefficient, none below " + shown(info.m_restitutionVelocityThreshold) + " m/s",
         info.m_restitutionVelocityThreshold > 0 ? Realisation::Approximate : Realisation::Exact,

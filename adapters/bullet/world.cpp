@@ -192,6 +192,10 @@ void BulletWorld::addBody(int index) {
     record->shape = std::make_unique<BodyShape>(body, record->comFrame, shapeSettings());
     record->tag.table = &pairs_;
     record->tag.body = index;
+    record->tag.frame = inverse(record->comFrame);
+    if (std::any_of(body.shapes.begin(), body.shapes.end(),
+                    [](const scenario::Shape& shape) { return shape.surfaceVelocity.moves(); }))
+        record->tag.source = &body;
     for (const auto& shape : body.shapes) record->tag.materials.push_back(shape.material);
     if (record->tag.materials.empty()) record->tag.materials.push_back(0);
 

@@ -45,7 +45,7 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
         for (const char* joint :
              {"ball", "hinge", "slider", "fixed", "distance", "cone_twist", "six_dof", "wheel"})
             c.joints.push_back(joint + std::string(".break"));
-        c.contactImpulses = true;
+        c.contactImpulses = c.rollingFriction = c.torsionalFriction = c.surfaceVelocity = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.libraryLacks = {
             {"cone", "ode/collision.h, geom class numbers: none is a cone"},

@@ -107,6 +107,13 @@ dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bou
         surface.mode |= dContactSoftCFM;
         surface.soft_cfm = cfm;
     }
+    if (pair.rollingFriction > 0.0 || pair.torsionalFriction > 0.0) {
+        // Axis by axis: else rho stands for all three, and mu2 and rho2 are not read.
+        surface.mode |= dContactRolling | dContactAxisDep;
+        surface.mu2 = pair.friction;
+        surface.rho = surface.rho2 = pair.rollingFriction;
+        surface.rhoN = pair.torsionalFriction;
+    }
     return surface;
 }
 

@@ -63,6 +63,12 @@ std::vector<LedgerEntry> OdeWorld::ledger() const {
             ? "each axis within mu N of its own"
             : "each axis within mu N of its own, N of a solution without friction: dWorldStep takes it once");
     lines.add("friction_pair", "pair table", "written into each contact");
+    const auto examples = pairs_.examples();
+    if (std::any_of(examples.begin(), examples.end(), [&](const adapter::PairTable::Example& m) {
+            return pairs_.coefficients(m.materialA, m.materialB).rollingFriction > 0.0;
+        }))
+        lines.add("rolling_friction", "disc, pair coefficient", "square, pair coefficient",
+                  "each axis within rho N of its own");
     lines.add("restitution", "pair coefficient, no threshold",
               "pair coefficient, none below " + setting("bounce_threshold") + " m/s",
               bounceThreshold_ > 0.0 ? "velocity threshold" : "");

@@ -150,6 +150,8 @@ void OdeWorld::createContactJoints() {
         toOde(-c.point.normal, contact.geom.normal);
         contact.geom.depth = c.point.depth;
         if (friction_ == Friction::PyramidVelocity) chooseFrictionDirection(c, contact);
+        const Vec3 belt = surfaceSlip(c);
+        if (norm(belt) > 0.0) setSurfaceMotion(c, belt, bodyA != nullptr, contact);
         const dJointID joint = dJointCreateContact(world_, contactGroup_, &contact);
         dJointAttach(joint, bodyA, bodyB);
         // The first force is that on the first body there is.
@@ -180,12 +182,36 @@ Vec3 OdeWorld::freeVelocityAt(int body, const Vec3& point) const {
 /// velocity they have now would not do: at rest on a slope it is zero or noise.
 void OdeWorld::chooseFrictionDirection(const StepContact& c, dContact& out) const {
     const Vec3 p = c.point.position;
-    const Vec3 relative = freeVelocityAt(c.b.body, p) - freeVelocityAt(c.a.body, p);
+    const Vec3 relative = freeVelocityAt(c.b.body, p) - freeVelocityAt(c.a.body, p) + surfaceSlip(c);
     const Vec3 sliding = relative - dot(relative, c.point.normal) * c.point.normal;
     const double speed = norm(sliding);
     if (speed < kNoDirection) return;
     out.surface.mode |= dContactFDir1;
     toOde(sliding / speed, out.fdir1);
+}
+
+/// Velocity of B's surface against A's over their bodies, in the tangent plane.
+Vec3 OdeWorld::surfaceSlip(const StepContact& c) const {
+    const auto at = [&](const GeomTag& tag) {
+        const scenario::Shape& shape = scenario_.bodies[tag.body].shapes[tag.shape];
+        return shape.surfaceVelocity.moves() ? surfaceVelocityAt(shape, poseOf(tag.body), c.point.position)
+                                             : Vec3{};
+    };
+    const Vec3 slip = at(c.b) - at(c.a);
+    return slip - dot(slip, c.point.normal) * c.point.normal;
+}
+
+/// dContactMotion1 and 2 are the velocities that the first body of the joint should have against the second along
+/// fdir1 and the joint's normal times fdir1. The first body is A, or B where A has none; the normal then turns.
+void OdeWorld::setSurfaceMotion(const StepContact& c, const Vec3& belt, bool firstIsA, dContact& out) const {
+    const bool chosen = (out.surface.mode & dContactFDir1) != 0;
+    const Vec3 t1 = chosen ? fromOde(out.fdir1) : belt / norm(belt);
+    const Vec3 t2 = cross(firstIsA ? -c.point.normal : c.point.normal, t1);
+    const Vec3 wanted = firstIsA ? belt : -belt;
+    toOde(t1, out.fdir1);
+    out.surface.mode |= dContactFDir1 | dContactMotion1 | dContactMotion2;
+    out.surface.motion1 = dot(wanted, t1);
+    out.surface.motion2 = dot(wanted, t2);
 }
 
 void OdeWorld::advance() {

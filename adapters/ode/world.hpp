@@ -81,6 +81,9 @@ class OdeWorld final : public adapter::World, public adapter::Snapshots, public 
     void findPoints(dGeomID a, dGeomID b);
     void createContactJoints();
     void chooseFrictionDirection(const StepContact& contact, dContact& out) const;
+    adapter::Vec3 surfaceSlip(const StepContact& c) const;
+    void setSurfaceMotion(const StepContact& c, const adapter::Vec3& belt, bool firstIsA,
+                          dContact& out) const;
     adapter::Vec3 freeVelocityAt(int body, const adapter::Vec3& point) const;
     void advance();
     void turnAngularMomentum(BodyRecord& record, const adapter::Quat& from);
