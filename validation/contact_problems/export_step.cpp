@@ -142,6 +142,12 @@ class StepExporter {
             throw Unsupported("a exported contact has one coefficient of friction; " +
                               s_.bodies[placeOf(contact.bodyA)].name + " and " +
                               s_.bodies[placeOf(contact.bodyB)].name + " have a static one above it");
+        if (pair.rollingFriction > 0.0 || pair.torsionalFriction > 0.0 ||
+            norm(surfaceSlip(s_, contact, step_.before)) > 0.0)
+            throw Unsupported(
+                "an exported contact has no rolling or torsional friction and no moving surface; " +
+                s_.bodies[placeOf(contact.bodyA)].name + " and " + s_.bodies[placeOf(contact.bodyB)].name +
+                " have");
         const PointOfContact point(s_, contact, step_.before);
         const auto tangents = tangentsOf(contact.normal, s_.dimension);
         const Vec3 impulse = contact.normalImpulse * contact.normal + contact.frictionImpulse;

@@ -20,7 +20,8 @@
 //                u_high the larger: both are in use.
 //   Coulomb      |p_t| <= mu p_n: the residual is k (|p_t| - mu p_n)+, k = K along p_t. The largest of both
 //                coefficients counts where the pair has a static one.
-//   dissipation  p_t maximises the power it takes, -p_t . u_t, over the disc |p_t| <= mu p_n: with P the
+//   dissipation  with u_t now that of the surfaces, which may move over their bodies (belts):
+//                p_t maximises the power it takes, -p_t . u_t, over the disc |p_t| <= mu p_n: with P the
 //                projection onto the disc, rho = 1/max K_tt and p' = P(p_t) (so that Coulomb's residual is
 //                not counted twice), the residual is |p' - P(p' - rho u_t)|/rho: zero where it sticks, or
 //                slides against friction at its limit; at most the slip.
@@ -92,7 +93,7 @@ Vec3 onDisc(const Vec3& v, double radius) {
 }
 
 double dissipation(const ContactStep& d) {
-    const Vec3 slip = d.tangential(d.point.velocity(d.after));
+    const Vec3 slip = d.tangential(d.point.velocity(d.after) + surfaceSlip(d.scenario, d.contact, d.before));
     const double mobility = d.point.tangentialMobility();
     const auto defect = [&](double radius) {
         const Vec3 pull = onDisc(d.tangential(d.contact.frictionImpulse), radius);

@@ -84,6 +84,17 @@ double PointOfContact::tangentialMobility() const {
     return 0.5 * (ss + tt) + std::hypot(0.5 * (ss - tt), st);
 }
 
+Vec3 surfaceSlip(const Scenario& scenario, const ContactPoint& contact, std::span<const BodyState> states) {
+    const auto of = [&](int body, int shape, const Vec3& point) {
+        const Shape& moving = scenario.bodies[place(body)].shapes[static_cast<std::size_t>(shape)];
+        if (!moving.surfaceVelocity.moves()) return Vec3{};
+        const BodyState& state = states[place(body)];
+        return surfaceVelocityAt(moving, {state.position, state.orientation}, point);
+    };
+    return of(contact.bodyB, contact.shapeB, contact.pointB) -
+           of(contact.bodyA, contact.shapeA, contact.pointA);
+}
+
 std::array<Vec3, 2> tangentsOf(const Vec3& n, int dimension) {
     if (dimension == 2) return {Vec3{-n.y, n.x, 0.0}, Vec3{0.0, 0.0, 1.0}};
     const Vec3 axis = std::abs(n.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};

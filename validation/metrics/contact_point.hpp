@@ -53,6 +53,11 @@ class PointOfContact {
     Mobility ofA_, ofB_;
 };
 
+/// Velocity of B's surface relative to A's over their bodies at the contact (Shape::surfaceVelocity), in the poses of
+/// `states`; zero where neither moves. What friction opposes is this and PointOfContact::velocity().
+scenario::Vec3 surfaceSlip(const scenario::Scenario& scenario, const ContactPoint& contact,
+                           std::span<const BodyState> states);
+
 /// Two unit vectors that make a right-handed frame with the unit normal. In 2D the first has z = 0.
 std::array<scenario::Vec3, 2> tangentsOf(const scenario::Vec3& normal, int dimension);
 

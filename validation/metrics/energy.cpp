@@ -56,7 +56,9 @@ bool contactsAreLossless(const Scenario& scenario) {
             for (const auto& sa : scenario.bodies[a].shapes)
                 for (const auto& sb : scenario.bodies[b].shapes) {
                     const auto pair = pairCoefficients(scenario, sa.material, sb.material);
-                    if (pair.friction > 0.0 || pair.restitution < 1.0) return false;
+                    if (pair.friction > 0.0 || pair.restitution < 1.0 || pair.rollingFriction > 0.0 ||
+                        pair.torsionalFriction > 0.0)
+                        return false;
                 }
         }
     return true;
@@ -104,6 +106,10 @@ bool isPassive(const Scenario& scenario) {
     for (const auto& body : scenario.bodies)
         if (body.type == BodyType::Kinematic && (body.velocity != Vec3{} || body.angularVelocity != Vec3{}))
             return false;
+    // Belts that rub do work.
+    for (const auto& body : scenario.bodies)
+        for (const auto& shape : body.shapes)
+            if (body.collides && shape.surfaceVelocity.moves()) return false;
     // Motors do work; springs of joints store what mechanicsOf() does not count.
     for (const auto& joint : scenario.joints)
         for (const auto& axis : joint.axes)

@@ -16,7 +16,7 @@ std::optional<double> exactEnergy(const MetricInput& input, double t);
 /// Kinetic energy of the exact solution, likewise.
 std::optional<double> exactKinetic(const MetricInput& input, double t);
 
-/// Nothing does work on the scene: no constant force, event, moving kinematic body, motor or spring of a
+/// Nothing does work on the scene: no constant force, event, moving kinematic body, moving surface, motor or spring of a
 /// joint. Friction, impacts, drag and damping only take energy.
 bool isPassive(const scenario::Scenario& scenario);
 /// The scene keeps its energy: passive, without damping or drag, and either every possible contact is elastic

@@ -29,11 +29,46 @@ const ReferenceEntry* findReference(const std::string& name) {
     return nullptr;
 }
 
+namespace {
+
+/// References that know a law beside sliding friction; the others are about contacts without it.
+enum Law : unsigned { kRolling = 1, kTorsional = 2, kSurfaces = 4 };
+constexpr std::pair<const char*, unsigned> kKnownLaws[] = {
+    {"conveyor", kRolling | kTorsional | kSurfaces},
+    {"measured_motion", kRolling | kTorsional | kSurfaces},
+    {"rolling_resistance", kRolling | kTorsional},
+    {"spinning_disc", kTorsional},
+    {"turntable", kSurfaces}};
+
+/// Throws AssumptionViolated where a contact that may happen has a law that the reference does not know.
+void requireKnownLaws(const Scenario& scenario, const std::string& name) {
+    unsigned known = 0;
+    for (const auto& [reference, laws] : kKnownLaws)
+        if (name == reference) known = laws;
+    const int count = static_cast<int>(scenario.bodies.size());
+    const auto check = [&](const scenario::Shape& x, const scenario::Shape& y) {
+        const auto pair = pairCoefficients(scenario, x.material, y.material);
+        require(pair.rollingFriction == 0.0 || (known & kRolling), name + " knows no rolling friction");
+        require(pair.torsionalFriction == 0.0 || (known & kTorsional), name + " knows no torsional friction");
+        const bool moves = x.surfaceVelocity.moves() || y.surfaceVelocity.moves();
+        require(!moves || (known & kSurfaces), name + " knows no surfaces that move over their bodies");
+    };
+    for (int a = 0; a < count; ++a)
+        for (int b = a + 1; b < count; ++b) {
+            if (!mayCollide(scenario, a, b)) continue;
+            for (const auto& x : scenario.bodies[a].shapes)
+                for (const auto& y : scenario.bodies[b].shapes) check(x, y);
+        }
+}
+
+}  // namespace
+
 std::unique_ptr<Reference> makeReference(const scenario::Scenario& scenario) {
     if (!scenario.reference) return nullptr;
     const ReferenceEntry* entry = findReference(scenario.reference->name);
     if (entry) {
         try {
+            requireKnownLaws(scenario, scenario.reference->name);
             auto reference = entry->make(scenario, *scenario.reference);
             requireClearWay(scenario, *reference);
             return reference;

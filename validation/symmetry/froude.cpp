@@ -81,6 +81,7 @@ struct Scale {
             for (double& value : row) value *= mass * kLength * kLength;
         for (Shape& s : b.shapes) {
             s.pose.position = kLength * s.pose.position;
+            s.surfaceVelocity = {kSpeed * s.surfaceVelocity.linear, s.surfaceVelocity.angular / kTime};
             std::visit(*this, s.geometry);
         }
         // kept^t with t in the longer seconds
@@ -141,6 +142,12 @@ Transformed froude(const Scenario& scenario, const Trajectory*) {
     const Scale scale(s.dimension);
     s.duration *= kTime;
     for (double& dt : s.timeSteps) dt *= kTime;
+    const auto lengths = [](auto& surface) {
+        surface.rollingFriction *= kLength;
+        surface.torsionalFriction *= kLength;
+    };
+    for (Material& m : s.materials) lengths(m);
+    for (MaterialPair& p : s.pairs) lengths(p);
     for (Body& b : s.bodies) scale.body(b);
     for (Joint& j : s.joints) scale.joint(j, s.dimension);
     for (Force& f : s.forces) std::visit(scale, f);

@@ -56,6 +56,7 @@ void reflect(Body& b, const Mirror& m) {
     b.massProperties.inertia = m.tensor(b.massProperties.inertia);
     for (Shape& s : b.shapes) {
         s.pose = m.pose(s.pose);
+        s.surfaceVelocity = {m.polar(s.surfaceVelocity.linear), m.axial(s.surfaceVelocity.angular)};
         std::visit(m, s.geometry);
     }
 }

@@ -27,7 +27,9 @@ bool contactsLose(const Scenario& s) {
             for (const Shape& x : s.bodies[a].shapes)
                 for (const Shape& y : s.bodies[b].shapes) {
                     const PairCoefficients pair = pairCoefficients(s, x.material, y.material);
-                    if (pair.friction > 0.0 || pair.restitution < 1.0) return true;
+                    if (pair.friction > 0.0 || pair.restitution < 1.0 || pair.rollingFriction > 0.0 ||
+                        pair.torsionalFriction > 0.0)
+                        return true;
                 }
         }
     return false;

@@ -4,6 +4,7 @@
 // A ball that rolls without slipping on a table turning at the rate Omega about its normal n:
 //   v' = k/(1+k) Omega n x v: a circle at the rate k/(1+k) Omega (2/7 for a solid sphere), centre
 //   x0 + n x v0/(k/(1+k) Omega); spin from rolling, w_t = n x (v - V_table)/r, its part along n constant.
+// The table turns itself (kinematic), or its surface does over a body at rest.
 // Source: Pars, A Treatise on Analytical Dynamics, 1965; Weckesser, Am. J. Phys. 65 (1997) 736.
 // Assumes: level table turning about a fixed point, rolling from the start, enough friction, stays on the
 // table. Quantities: turn_rate of the velocity's direction over the run, circle_drift: the change of the
@@ -39,6 +40,7 @@ class Turntable : public Reference {
         require(disc.velocity == Vec3{} && norm(w - dot(w, n) * n) <= 1e-9 * norm(w),
                 "the table does not turn about its normal at a fixed place");
         pivot_ = centerOfMass(disc);
+        if (disc.shapes.front().surfaceVelocity.moves()) takeSurface(disc);
         require(std::abs(plane_.height(ball_.center) - ball_.radius) <= 1e-4 * ball_.radius,
                 subject + " does not start in contact");
         const Vec3 slip = ball_.velocity - ball_.radius * cross(ball_.spin, n) -
@@ -100,6 +102,22 @@ class Turntable : public Reference {
     }
 
   private:
+    /// The surface turns about a point at the rate of the table.
+    void takeSurface(const Body& disc) {
+        require(disc.shapes.size() == 1, "the table has more than one shape");
+        require(tableRate_ == 0.0, "the table turns, and its surface over it");
+        const Vec3 n = plane_.normal;
+        const scenario::SurfaceVelocity& surface = disc.shapes.front().surfaceVelocity;
+        const Vec3 turning = rotate(disc.pose.orientation, surface.angular);
+        const Vec3 moving = rotate(disc.pose.orientation, surface.linear);
+        tableRate_ = dot(turning, n);
+        require(tableRate_ != 0.0, "the surface does not turn: use conveyor");
+        require(norm(turning - tableRate_ * n) <= 1e-9 * norm(turning) &&
+                    std::abs(dot(moving, n)) <= 1e-9 * norm(moving),
+                "the surface does not turn about the normal of the table");
+        // moving + rate n x (pivot - origin) = 0
+        pivot_ = disc.pose.position + (1.0 / tableRate_) * cross(n, moving);
+    }
     Vec3 velocityAt(double t) const {
         const double c = std::cos(rate_ * t), s = std::sin(rate_ * t);
         return c * ball_.velocity + s * cross(plane_.normal, ball_.velocity);

@@ -10,6 +10,7 @@
 //     with the parameter eps^2 or 1/eps^2; v and w end together, with eps = 0.653;
 //   n feet at rho_i:  m v' = -(mu m g/n) sum u_i/|u_i|,  I w' = -(mu m g/n) sum rho_i x u_i/|u_i|;
 //     pure spin of feet on one circle: w' = -mu m g a/I whatever the loads.
+// Torsional friction rho_t of the pair takes m g rho_t/I more of w in each of these.
 // The laws of rigid bodies leave the pressure of more than three points open: this is the solution for equal
 // pressure, which an engine need not choose. A centre of mass above the floor would tilt the pressure: it
 // must lie in the floor's plane, but for pure spin. tripod_slide has loads that follow from statics.
@@ -50,7 +51,8 @@ Friction discFriction(Real eps) {
 
 class SpinningDisc : public Reference {
   public:
-    SpinningDisc(const Scenario& scenario, int index, const FlatMotion& motion, double height)
+    SpinningDisc(const Scenario& scenario, int index, const FlatMotion& motion, double height,
+                 double torsional)
         : scenario_(scenario), index_(index), body_(motion.body), motion_(motion) {
         const std::string subject = bodyTitle(scenario, index);
         const Vec3 n = motion_.normal, g = gravityOn(scenario, index);
@@ -60,6 +62,7 @@ class SpinningDisc : public Reference {
                 "the centre of mass of " + subject + " is off the floor: its pressure is not even");
         findFeet(isFlat, spins);
         push_ = motion_.friction * norm(g);
+        braking_ = torsional * norm(g) * motion_.mass / motion_.inertia;
         follow(motion_.start());
     }
     std::vector<int> bodies() const override { return {index_}; }
@@ -136,7 +139,9 @@ class SpinningDisc : public Reference {
             fy += share * u.y;
             torque += share * (p.x * u.y - p.y * u.x);
         }
-        d = {y[3], y[4], y[5], push_ * fx, push_ * fy, push_ * motion_.mass * torque / motion_.inertia};
+        const Real braking = y[5] > 0 ? braking_ : (y[5] < 0 ? -braking_ : 0);
+        d = {y[3],       y[4],       y[5],
+             push_ * fx, push_ * fy, push_ * motion_.mass * torque / motion_.inertia - braking};
     }
 
     void follow(const OdeState& start) {
@@ -153,7 +158,8 @@ class SpinningDisc : public Reference {
             slides, rhs, 0, start, whole, 400,
             [&](const OdeState& y) {
                 // Half of what the slowest foot needs at least to come to rest.
-                const Real loss = push_ * (1 + spinUp) + std::abs(y[5]) * std::hypot(y[3], y[4]);
+                const Real loss =
+                    push_ * (1 + spinUp) + braking_ * radius_ + std::abs(y[5]) * std::hypot(y[3], y[4]);
                 return loss > 0 ? slowest(y) / (2 * loss) : Real(whole);
             },
             scale, 50'000));
@@ -166,8 +172,8 @@ class SpinningDisc : public Reference {
     int index_;
     const Body& body_;
     FlatMotion motion_;
-    std::vector<Foot> feet_;  ///< feet; none: a disc
-    Real radius_ = 0, push_ = 0;
+    std::vector<Foot> feet_;                    ///< feet; none: a disc
+    Real radius_ = 0, push_ = 0, braking_ = 0;  ///< [m], [m/s^2], [rad/s^2]
     DenseSolution solution_;
     double validUntil_ = 1e300;
 };
@@ -181,8 +187,10 @@ std::unique_ptr<Reference> makeSpinningDisc(const Scenario& scenario, const scen
     const Body& disc = scenario.bodies[body];
     const Vec3 centre = centerOfMass(disc), up = -1.0 * unit(scenario.gravity);
     const Plane plane = planeOf(scenario, floor, centre + 1e-3 * sizeOf(disc) * up);
-    return std::make_unique<SpinningDisc>(scenario, body, FlatMotion(scenario, body, floor, plane),
-                                          plane.height(centre));
+    const FlatMotion motion(scenario, body, floor, plane);
+    const auto pair = pairCoefficients(scenario, motion.support.material, plane.material);
+    return std::make_unique<SpinningDisc>(scenario, body, motion, plane.height(centre),
+                                          pair.torsionalFriction);
 }
 
 }  // namespace rigor::validation

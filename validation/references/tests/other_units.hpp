@@ -112,9 +112,17 @@ inline bool inUnits(Scenario& s, const Units& u) {
             for (int j = 0; j < 3; ++j) b.massProperties.inertia(i, j) *= u.mass * u.length * u.length;
         for (auto& shape : b.shapes) {
             shape.pose.position = u.length * shape.pose.position;
+            shape.surfaceVelocity = {u.speed() * shape.surfaceVelocity.linear,
+                                     shape.surfaceVelocity.angular / u.time};
             scaleShape(shape.geometry, u.length);
         }
     }
+    const auto scaleLengths = [&](auto& surface) {
+        surface.rollingFriction *= u.length;
+        surface.torsionalFriction *= u.length;
+    };
+    for (auto& m : s.materials) scaleLengths(m);
+    for (auto& p : s.pairs) scaleLengths(p);
     for (auto& joint : s.joints) scaleJoint(joint, s.dimension, u);
     for (auto& force : s.forces) scaleForce(force, u);
     for (auto& event : s.events) {
