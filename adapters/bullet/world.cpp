@@ -158,6 +158,11 @@ void BulletWorld::configureSolver() {
     if (is("friction_directions", "2")) info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
     if (is("friction_axis", "fixed"))
         info.m_solverMode |= SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
+    // Bullet looks at a point's own directions only then (contact_rules.cpp, moving surfaces).
+    const auto moves = [](const scenario::Shape& shape) { return shape.surfaceVelocity.moves(); };
+    for (const scenario::Body& body : scenario_.bodies)
+        if (std::any_of(body.shapes.begin(), body.shapes.end(), moves))
+            info.m_solverMode |= SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
     // A direct solver's matrix should hold one island, not a batch of them.
     if (mlcpSolver_ != nullptr) info.m_minimumSolverBatchSize = 1;
 }

@@ -182,6 +182,25 @@ TEST(Dissipation, TheSlipIsThatOfTheSurfaces) {
     EXPECT_NEAR(step.dissipation(), 0.0, 1e-14);
 }
 
+TEST(Dissipation, ABeltCountsAsASurfaceThatMoves) {
+    OneStep step;
+    step.after().velocity = {1, 0, 0};
+    step.after().angularVelocity = {0, 0, -3.6};
+    scenario::SurfaceVelocity& belt = step.scenario.bodies[0].shapes[0].surfaceVelocity;
+    belt.linear = {0.1, 5, 0};  // the part across the face is none of friction's business
+    EXPECT_NEAR(step.dissipation(), 0.0, 1e-14);
+    belt = {{0, 0, 0}, {0, -2, 0}};  // turns about the point of contact
+    EXPECT_NEAR(step.dissipation(), 0.1, 1e-14);
+    step.scenario.bodies[0].pose.position = {0, 0, 0.05};  // the states count, not where it was built
+    EXPECT_NEAR(step.dissipation(), 0.1, 1e-14);
+    for (const std::size_t frame : {0, 2}) step.run.states[frame].position = {0, 0, 0.05};
+    EXPECT_NEAR(step.dissipation(), 0.0, 1e-14) << "2 rad/s at 0.05 m";
+    // The surface of the ball itself.
+    belt = {};
+    step.scenario.bodies[1].shapes[0].surfaceVelocity.angular = {0, 0, -0.4};
+    EXPECT_NEAR(step.dissipation(), 0.0, 1e-14) << "0.4 rad/s at the radius";
+}
+
 TEST(Dissipation, StaticFrictionHoldsWithinItsOwnLimit) {
     OneStep step;
     step.scenario.pairs = {{0, 0, 0.5, 0.0, 0.8}};

@@ -123,8 +123,11 @@ void PlanarFrame::chooseAxis(const Scenario& scenario) {
         const Vec3 lever = foot / std::max(count, 1) - com;
         const Vec3 byLever = cross(plane_.normal, lever), byPull = cross(plane_.normal, g);
         const bool leans = norm(byLever) > 1e-9 * sizeOf(body_);
-        require(leans || norm(byPull) > 1e-9 * norm(g), "nothing says in which plane the body moves");
-        axis_ = unit(leans ? byLever : byPull);
+        const Vec3 byMotion = cross(plane_.normal, body_.velocity);
+        const bool pulled = norm(byPull) > 1e-9 * norm(g),
+                   moves = norm(byMotion) > 1e-9 * norm(body_.velocity);
+        require(leans || pulled || moves, "nothing says in which plane the body moves");
+        axis_ = unit(leans ? byLever : pulled ? byPull : byMotion);
     }
     require(std::abs(dot(axis_, plane_.normal)) <= 1e-9, "the body turns about the normal of the floor");
 }
