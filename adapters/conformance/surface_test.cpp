@@ -10,22 +10,23 @@
 namespace rigor::conformance {
 namespace {
 
-constexpr double kGravity = 9.81, kRadius = 0.2, kMass = 1.5, kMoment = 0.03;
-constexpr double kStep = 1.0 / 240.0;
+constexpr double kSurfaceGravity = 9.81, kRollerRadius = 0.2, kRollerMass = 1.5, kRollerMoment = 0.03;
+constexpr double kSurfaceStep = 1.0 / 240.0;
 
 class Surface : public DynamicsTest {
   protected:
     /// Materials 0 and 1 whose pair has the friction mu; a floor of material 0.
     Scenario floorScene(double mu) const {
         Scenario s = scene(0.9);
-        s.gravity = {0, -kGravity, 0};
+        s.gravity = {0, -kSurfaceGravity, 0};
         s.materials.push_back({"other", 0.1, 0.0, 1000.0});
         s.pairs.push_back({1, 0, mu, 0.0});
         addStatic(s, block({20, 1, 20}), {0, -1, 0});
         return s;
     }
     int addRoller(Scenario& s) const {
-        const int index = addBody(s, ball(kRadius), {0, kRadius, 0}, kMass, {kMoment, kMoment, kMoment});
+        const int index = addBody(s, ball(kRollerRadius), {0, kRollerRadius, 0}, kRollerMass,
+                                  {kRollerMoment, kRollerMoment, kRollerMoment});
         s.bodies.back().shapes[0].material = 1;
         return index;
     }
@@ -37,7 +38,7 @@ class Surface : public DynamicsTest {
     }
     bool refuses(const Scenario& s, const char* what) const {
         try {
-            build(s, kStep);
+            build(s, kSurfaceStep);
             return false;
         } catch (const adapter::Unsupported& refused) {
             EXPECT_NE(std::string(refused.what()).find(what), std::string::npos) << refused.what();
@@ -55,17 +56,18 @@ TEST_P(Surface, RollingFrictionIsThatOfThePair) {
         s.pairs.back().rollingFriction = rho;
         const int roller = addRoller(s);
         s.bodies.back().velocity = {1, 0, 0};
-        s.bodies.back().angularVelocity = {0, 0, -1 / kRadius};
+        s.bodies.back().angularVelocity = {0, 0, -1 / kRollerRadius};
         if (!engine().capabilities().rollingFriction) {
             EXPECT_TRUE(refuses(s, "rolling friction"));
             return;
         }
-        auto world = build(s, kStep);
+        auto world = build(s, kSurfaceStep);
         run(*world, 120);
-        const double a = rho * kMass * kGravity / kRadius / (kMass + kMoment / (kRadius * kRadius));
+        const double a = rho * kRollerMass * kSurfaceGravity / kRollerRadius /
+                         (kRollerMass + kRollerMoment / (kRollerRadius * kRollerRadius));
         within("rolling_friction", std::abs((1 - stateOf(*world, s, roller).velocity.x) / (0.5 * a) - 1),
                2e-2);
-        run(*world, static_cast<int>(1 / (a * kStep)));
+        run(*world, static_cast<int>(1 / (a * kSurfaceStep)));
         within("rolling_stops", norm(stateOf(*world, s, roller).velocity), 1e-3);
     }
 }
@@ -82,12 +84,12 @@ TEST_P(Surface, TorsionalFrictionIsThatOfThePair) {
             EXPECT_TRUE(refuses(s, "torsional friction"));
             return;
         }
-        auto world = build(s, kStep);
+        auto world = build(s, kSurfaceStep);
         run(*world, 60);
-        const double braking = rho * kMass * kGravity / kMoment;
+        const double braking = rho * kRollerMass * kSurfaceGravity / kRollerMoment;
         const double lost = 3 - stateOf(*world, s, roller).angularVelocity.y;
         within("torsional_friction", std::abs(lost / (0.25 * braking) - 1), 2e-2);
-        run(*world, static_cast<int>(3 / (braking * kStep)));
+        run(*world, static_cast<int>(3 / (braking * kSurfaceStep)));
         within("torsional_stops", norm(stateOf(*world, s, roller).angularVelocity), 1e-3);
     }
 }
@@ -108,11 +110,11 @@ TEST_P(Surface, ABeltTakesWhatLiesOnItAlong) {
                 EXPECT_TRUE(refuses(s, "velocity of a surface"));
                 return;
             }
-            auto world = build(s, kStep);
+            auto world = build(s, kSurfaceStep);
             run(*world, 48);
             const int which = floorFirst ? slider : 0;
             const Vec3 half = stateOf(*world, s, which).velocity;
-            within("belt_pulls", norm(half - 0.2 * mu * kGravity / speed * belt) / speed, 2e-2);
+            within("belt_pulls", norm(half - 0.2 * mu * kSurfaceGravity / speed * belt) / speed, 2e-2);
             run(*world, 192);
             within("belt_carries", norm(stateOf(*world, s, which).velocity - belt) / speed, 1e-2);
         }
@@ -126,7 +128,7 @@ TEST_P(Surface, ATurningSurfaceTurnsWhatLiesOnIt) {
     const int slider = addSlider(s);
     s.bodies[0].pose.position = {1, -1, 0.5};
     s.bodies[0].shapes[0].surfaceVelocity = {{0, 0, 0.3}, {0, rate, 0}};
-    auto world = build(s, kStep);
+    auto world = build(s, kSurfaceStep);
     run(*world, 240);
     const BodyState state = stateOf(*world, s, slider);
     const Vec3 field = Vec3{0, 0, 0.3} + cross({0, rate, 0}, state.position - Vec3{1, 0.1, 0.5});

@@ -95,7 +95,7 @@ const BrokenFile kBrokenFiles[] = {
     {"UnknownMaterial", R"("material": "wood")", R"("material": "steel")",
      R"(bad.json:14: /bodies/1/shapes/0/material: found string "steel", expected a material of the file: wood [material.unknown])"},
     {"UnknownShape", R"("sphere": { "radius": 0.25 })", R"("ball": { "radius": 0.25 })",
-     R"(bad.json:14: /bodies/1/shapes/0/ball: found the key 'ball', expected one of sphere, circle, box, capsule, cylinder, cone, hull, polygon, half_space, half_plane, segment, chain, triangle_mesh, height_field, material, position, orientation, axis_angle_deg, angle, angle_deg [schema.unknown_key])"},
+     R"(bad.json:14: /bodies/1/shapes/0/ball: found the key 'ball', expected one of sphere, circle, box, capsule, cylinder, cone, hull, polygon, half_space, half_plane, segment, chain, triangle_mesh, height_field, material, position, orientation, axis_angle_deg, angle, angle_deg, surface_velocity [schema.unknown_key])"},
     {"PlanarShape", R"("sphere")", R"("circle")",
      R"(bad.json:14: /bodies/1/shapes/0/circle: found the shape 'circle', expected one of sphere, box, capsule, cylinder, cone, hull, half_space, triangle_mesh, height_field [shape.dimension])"},
     {"HalfSpaceMoves", R"("sphere": { "radius": 0.25 })", R"("half_space": { "normal": [0, 1, 0] })",
