@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/constraints/moment_rows.hpp"
 #include "engine/contacts/contact.hpp"
+#include "engine/contacts/moment_rows.hpp"
 
 namespace rigor::engine {
 namespace {

@@ -21,7 +21,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/constraints/moment_rows.hpp"
+#include "engine/contacts/moment_rows.hpp"
 
 namespace rigor::engine {
 namespace {

@@ -118,7 +118,7 @@ class World {
     /// Velocity of a shape's surface over its body, as ShapeDef::surfaceVelocity; wakes what may rest on it. Throws
     /// EngineError "shape_surface_velocity" where it is not finite, "step_in_progress" between the phases of a step.
     void setSurfaceVelocity(ShapeId shape, const Velocity<S>& surface);
-    /// What was set, as in ShapeDef.
+    /// The velocity that was set, as in ShapeDef.
     Velocity<S> surfaceVelocity(ShapeId shape) const;
     /// Puts a body elsewhere, of any type, without a way between: its velocity stays, its contacts begin anew, and
     /// what it touched or hung on wakes. Joints pull it back. Throws EngineError "body_pose" for poses that are

@@ -74,7 +74,7 @@ void PartProblem<S>::load(const SolverInput<S>& whole, std::span<const std::uint
     velocities_.clear();
     localOf_.resize(whole.velocities.size(), kNullIndex);
     renews_ = false;
-    std::uint32_t normal = 0;  // of the point whose moments follow
+    std::uint32_t normal = 0;  // normal row of the last point; its moments follow
     for (const std::uint32_t k : blocks) {
         Block<S> block = whole.constraints.blocks[k];
         const bool isContact = isOfContact(block.kind);

@@ -47,7 +47,7 @@ LineRoll::Phase LineRoll::phaseFrom(double t, const State& state) const {
     const double slip = state.velocity - state.roll;
     const auto slides = [&](double direction) {
         const double f = -sliding * direction;
-        // What turns the ball is -f; where it does not turn yet, resistance may keep it so.
+        // The force -f turns the ball; where it does not turn yet, resistance may keep it so.
         const double turns = state.roll != 0.0 ? sign(state.roll) : sign(-f);
         const bool held = state.roll == 0.0 && sliding <= resistance;
         return Phase{t, state, p + f, held ? 0.0 : (-f - resistance * turns) / k, true};

@@ -11,7 +11,7 @@ namespace rigor::plain {
 namespace {
 
 constexpr double kRollStep = 1.0 / 240, kBallRadius = 0.1, kSlidingFriction = 0.5;
-double rollingFriction = 0, spinningFriction = 0;  ///< of every contact point
+double rollingFriction = 0, spinningFriction = 0;  ///< every contact point has these [m]
 
 bool setCoefficients(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
                      const btCollisionObjectWrapper*, int, int) {
