@@ -179,6 +179,23 @@ TYPED_TEST(Moments, ABoxOnABeltSlidesAndThenRidesAndStopsWithTheBelt) {
     }
 }
 
+/// Friction has the impulse mu N at the impact as well: v = mu g t, whenever the box has landed.
+TYPED_TEST(Moments, ABoxThatLandsOnABeltGetsTheImpulseOfFriction) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    WorldDef<S> def = earth<S>();
+    def.integrator = "moreau_midpoint";
+    World<S> world(def);
+    const std::uint32_t material = world.addMaterial(pairOf<S>(0.25, 0));
+    BodyDef<S> fixed;
+    fixed.type = BodyType::Static;
+    const HalfSpace<S> half{S::Vec::Unit(1), 0};
+    world.addShape(world.addBody(fixed), {half, {}, material, {at<S>(2, 0), zeroAng<S>()}});
+    const BodyId box = addCube<S>(world, 0, 0.25 + 0.3, 0.25, 1, material);
+    for (int i = 0; i < 48; ++i) world.step(R(kStep));
+    EXPECT_NEAR(static_cast<double>(world.velocity(box)[0]), 0.25 * kGravity * 48 * kStep, 1e-3);
+}
+
 /// A turning surface is a turning body to what lies on it, for torsional friction as well.
 TYPED_TEST(Moments3d, ABoxRidesOnATurningSurfaceAsOnATurningBody) {
     using S = TypeParam;
