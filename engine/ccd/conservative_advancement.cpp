@@ -182,8 +182,9 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
     }
 
     void addCandidate(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j, Real time) {
-        const std::uint32_t bi = bodyOf(world, i), bj = bodyOf(world, j);
-        if (!world.contacts.filter().mayCollide(world.bodies, bi, bj)) return;
+        const ShapeSet<S>& shapes = world.contacts.shapes();
+        if (!world.contacts.filter().mayCollide(world.bodies, shapes[i], shapes[j])) return;
+        const std::uint32_t bi = shapes[i].body, bj = shapes[j].body;
         // Bodies that impulses do not move meet a paused body in that body's half of the step.
         for (const auto& [paused, other] : {std::pair(bi, bj), std::pair(bj, bi)})
             if (world.isPaused(paused) && world.bodies.invMass[other] == 0) return;

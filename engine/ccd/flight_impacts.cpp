@@ -319,7 +319,7 @@ bool FlightImpacts<S>::searchFrom(const MovedWorld<S>& world, std::uint32_t body
         for (std::uint32_t j = 0; j < count; ++j) {
             const std::uint32_t other = shapes[j].body;
             if (other == body || !boxes_[i].overlaps(boxes_[j])) continue;
-            if (!world.contacts.filter().mayCollide(world.bodies, body, other)) continue;
+            if (!world.contacts.filter().mayCollide(world.bodies, shapes[i], shapes[j])) continue;
             Pair pair;
             pair.a = body < other ? i : j;
             pair.b = body < other ? j : i;

@@ -119,7 +119,8 @@ void FlightImpacts<S>::addPair(const MovedWorld<S>& world, std::uint32_t i, std:
     const ShapeSet<S>& shapes = world.contacts.shapes();
     const std::uint32_t bi = shapes[i].body, bj = shapes[j].body;
     if (bi == bj || !(flying_[bi] || flying_[bj])) return;
-    if (!mayTouch(world, i, j) || !world.contacts.filter().mayCollide(world.bodies, bi, bj)) return;
+    if (!mayTouch(world, i, j) || !world.contacts.filter().mayCollide(world.bodies, shapes[i], shapes[j]))
+        return;
     const bool meets = (flying_[bi] || world.bodies.constants[bi].type != BodyType::Dynamic) &&
                        (flying_[bj] || world.bodies.constants[bj].type != BodyType::Dynamic) &&
                        !isComposite<S>(shapes[i].shape) && !isComposite<S>(shapes[j].shape);

@@ -136,11 +136,11 @@ class Speculative final : public ContinuousCollision<S> {
     /// Takes a shape that has passed a surface back along its way.
     void stopAtSurface(const MovedWorld<S>& world, std::uint32_t surface, std::uint32_t shape,
                        const MovingShape<S>& still, const MovingShape<S>& moving) {
-        const std::uint32_t body = world.contacts.shapes()[shape].body;
+        const ShapeSet<S>& shapes = world.contacts.shapes();
+        const std::uint32_t body = shapes[shape].body;
         if (!mayPassUnseen<S>(still, moving, world.h)) return;
-        if (!world.contacts.filter().mayCollide(world.bodies, world.contacts.shapes()[surface].body, body))
-            return;
-        if (!sweptBox<S>(moving, world.h).overlaps(world.contacts.shapes().box(surface))) return;
+        if (!world.contacts.filter().mayCollide(world.bodies, shapes[surface], shapes[shape])) return;
+        if (!sweptBox<S>(moving, world.h).overlaps(shapes.box(surface))) return;
         const bool known = hasRows<S>(world.contacts.list(), surface, shape);
         const TimeOfImpact<S> impact = surfaceImpact_.find(still, moving, world.h, known, world.narrowPhase);
         if (!impact.hit) return;

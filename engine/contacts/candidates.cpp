@@ -127,7 +127,7 @@ void Candidates<S>::merge(const BodyArrays<S>& bodies, const ShapeSet<S>& shapes
         const std::uint64_t key = pairKey(p.a, p.b);
         merge.passBefore(key);
         if (mayCollideHolds_ && merge.keep(key, kNullIndex)) continue;
-        if (!filter.mayCollide(bodies, shapes[p.a].body, shapes[p.b].body)) continue;
+        if (!filter.mayCollide(bodies, shapes[p.a], shapes[p.b])) continue;
         const bool ordered = shapes[p.a].body < shapes[p.b].body;
         const std::uint32_t a = ordered ? p.a : p.b, b = ordered ? p.b : p.a;
         const bool surfaceA = isComposite<S>(shapes[a].shape);

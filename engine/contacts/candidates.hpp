@@ -79,7 +79,7 @@ class Candidates {
     std::vector<std::uint32_t> orphans_;
     ContactSearch<S> cachedSearch_;
     bool valid_ = false, havePieces_ = false;
-    bool mayCollideHolds_ = false;  ///< the filter lets the bodies of all candidates collide
+    bool mayCollideHolds_ = false;  ///< the filter lets the shapes of all candidates collide
     // --- scratch of merge()
     std::vector<std::uint32_t> oldOrder_;
     std::vector<std::uint64_t> oldKeys_;

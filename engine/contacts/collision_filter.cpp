@@ -9,7 +9,8 @@
 namespace rigor::engine {
 
 template <class S>
-bool CollisionFilter<S>::mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b) const {
+bool CollisionFilter<S>::bodiesMayCollide(const BodyArrays<S>& bodies, std::uint32_t a,
+                                          std::uint32_t b) const {
     if (a == b) return false;
     const BodyConstants<S>&A = bodies.constants[a], &B = bodies.constants[b];
     if (!A.collides || !B.collides) return false;

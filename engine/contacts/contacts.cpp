@@ -11,6 +11,12 @@ void Contacts<S>::setExcluded(std::vector<std::uint64_t> pairs) {
 }
 
 template <class S>
+void Contacts<S>::setShapeFilter(std::uint32_t shape, const ShapeFilter& filter) {
+    shapes_.records()[shape].filter = filter;
+    candidates_.invalidate();
+}
+
+template <class S>
 void Contacts<S>::structureChanged(bool indicesChanged) {
     shapes_.changed();
     pairs_.reset();

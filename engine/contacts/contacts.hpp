@@ -49,6 +49,8 @@ class Contacts {
 
     /// Bodies that a joint keeps from colliding: sorted keys (pairKey).
     void setExcluded(std::vector<std::uint64_t> pairs);
+    /// Replaces the filter of a shape.
+    void setShapeFilter(std::uint32_t shape, const ShapeFilter& filter);
     /// Must be called after shapes or bodies were added, removed or, being static, moved; removes all contacts
     /// if dense indices changed.
     void structureChanged(bool indicesChanged);

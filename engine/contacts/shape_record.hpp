@@ -10,6 +10,7 @@
 #include "engine/shapes/bounding_sphere.hpp"
 #include "engine/shapes/shape.hpp"
 #include "engine/state/body_arrays.hpp"
+#include "engine/state/shape_filter.hpp"
 
 namespace rigor::engine {
 
@@ -21,6 +22,7 @@ struct ShapeRecord {
     std::uint32_t body = 0;  ///< dense index
     std::uint32_t material = 0;
     ShapeId id;
+    ShapeFilter filter;
     /// Bounding radius of the core about the centre of mass, and inscribed radius (ccd/moving_shape.hpp) [m].
     typename S::Real boundingRadius = 0, inscribedRadius = 0;
     typename S::Real radius = 0;              ///< bounding radius about the shape's own origin [m]

@@ -63,7 +63,7 @@ bool stayOnSide(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter, con
         bool moved = false;
         for (const std::uint32_t surface : shapes.surfaces()) {
             if (!Aabb<S>{before.cwiseMin(now), before.cwiseMax(now)}.overlaps(shapes.box(surface))) continue;
-            if (!filter.mayCollide(bodies, record.body, shapes[surface].body)) continue;
+            if (!filter.mayCollide(bodies, record, shapes[surface])) continue;
             const Pose<S>& X = shapes.pose(surface);
             Vec x = toLocal<S>(X, now);
             if (!stayOnSideOf<S>(shapes[surface].shape, toLocal<S>(X, before), x,

@@ -86,6 +86,7 @@ ShapeRecord<S> makeShapeRecord(const ShapeDef<S>& def, const BodyConstants<S>& c
     record.body = body;
     record.material = def.material;
     setSurfaceVelocity<S>(record, def.surfaceVelocity, constants);
+    record.filter = def.filter;
     record.boundingRadius = coreBoundingRadius<S>(record.shape, record.local);
     record.inscribedRadius = inscribedRadiusOf<S>(record.shape);
     record.middle = middleOf<S>(record.shape);

@@ -107,6 +107,9 @@ void visitState(A& archive, World& world) {
 #define SURFACE_FIELD(member) visitValue(archive, shape.member);
 #include "engine/state/state_fields.def"
         }
+        if (std::is_same_v<A, HashArchive> && shape.filter == ShapeFilter{}) continue;
+#define FILTER_FIELD(member) visitValue(archive, shape.filter.member);
+#include "engine/state/state_fields.def"
     }
     for (auto& record : world.joints.records()) {
 #define JOINT_FIELD(member) visitValue(archive, record.member);

@@ -49,15 +49,22 @@ void World<S>::removeBody(BodyId body) {
 template <class S>
 ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
     const std::uint32_t dense = parts_.bodies.dense(body);
-    BodyArrays<S>& bodies = parts_.bodies.arrays();
+    const BodyArrays<S>& bodies = parts_.bodies.arrays();
     require(def.material < parts_.contacts.materials().size(), "shape_material", "unknown material");
     const ShapeId id = parts_.contacts.shapes().add(makeShapeRecord<S>(def, bodies.constants[dense], dense));
-    if (parts_.algorithms.sleeping.wake && bodies.constants[dense].type != BodyType::Dynamic)
-        // It may stand in the way of any of them.
-        for (std::uint32_t i = 0; i < bodies.size(); ++i) wakeBody(bodies, i);
-    parts_.wakeIslandOf(dense);
+    parts_.wakeReachOf(dense);
     parts_.contacts.structureChanged(false);
     return id;
+}
+
+template <class S>
+void World<S>::setFilter(ShapeId shape, const ShapeFilter& filter) {
+    require(!stepping(), "step_in_progress", "filters cannot change between the phases of a step");
+    const ShapeSet<S>& shapes = parts_.contacts.shapes();
+    const std::uint32_t dense = shapes.ids().dense(shape);
+    parts_.wakeNeighboursOf(shapes[dense].body);
+    parts_.wakeReachOf(shapes[dense].body);
+    parts_.contacts.setShapeFilter(dense, filter);
 }
 
 template <class S>

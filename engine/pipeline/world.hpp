@@ -34,6 +34,12 @@ class World {
     /// Removes the body with its shapes, joints and forces.
     void removeBody(BodyId body);
     ShapeId addShape(BodyId body, const ShapeDef<S>& def);
+    /// Replaces what a shape collides with, and wakes the bodies that this may move. Contacts that it no longer
+    /// allows end in the next step. Throws EngineError "step_in_progress" between the phases of a step.
+    void setFilter(ShapeId shape, const ShapeFilter& filter);
+    const ShapeFilter& filter(ShapeId shape) const {
+        return parts_.contacts.shapes()[parts_.contacts.shapes().ids().dense(shape)].filter;
+    }
     std::uint32_t addMaterial(Real friction, Real restitution, Real staticFriction = 0);
     /// The same with rolling and torsional friction. Throws EngineError "material_moments" where the world's solver
     /// has no rows for them (solvers/traits.hpp).

@@ -55,6 +55,14 @@ void WorldParts<S>::wakeNeighboursOf(std::uint32_t body) {
     for (const auto& record : joints.records()) wakeOther(record.joint.a, record.joint.b);
 }
 
+template <class S>
+void WorldParts<S>::wakeReachOf(std::uint32_t body) {
+    BodyArrays<S>& all = bodies.arrays();
+    if (algorithms.sleeping.wake && all.constants[body].type != BodyType::Dynamic)
+        for (std::uint32_t i = 0; i < all.size(); ++i) wakeBody(all, i);
+    wakeIslandOf(body);
+}
+
 RIGOR_INSTANTIATE_CLASS(WorldParts)
 
 }  // namespace rigor::engine

@@ -57,6 +57,9 @@ struct WorldParts {
     /// Wakes all of the island of a body, if the body is asleep: bodies that rest on it must react.
     void wakeIslandOf(std::uint32_t body);
     void wakeNeighboursOf(std::uint32_t body);
+    /// Wakes what a new or changed shape of a body may move: its island, or every body if it is not dynamic, since
+    /// it may stand in the way of any of them.
+    void wakeReachOf(std::uint32_t body);
 
     WorldDef<S> def;
     StepAlgorithms<S> algorithms;

@@ -84,7 +84,7 @@ template <class S>
 template <class Enter, class Visit>
 void WorldQueries<S>::visit(Enter enter, const Filter& filter, Visit use) const {
     const auto test = [&](std::uint32_t i) {
-        if (!filter || filter(entries_[i].body)) use(i);
+        if (filter(entries_[i].body, entries_[i].record->filter)) use(i);
     };
     for (const std::uint32_t i : outside_)
         if (enter(boxes_[i])) test(i);

@@ -14,6 +14,8 @@
 
 #include <functional>
 #include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/pipeline/world.hpp"
@@ -27,6 +29,28 @@ struct ShapeRef {
     BodyId body;
     ShapeId shape;
     std::uint32_t piece = 0xffffffffu;
+};
+
+/// What a query finds: bodies that a function takes, shapes that would collide with a shape of the given filter,
+/// both, or all.
+class QueryFilter {
+  public:
+    QueryFilter() = default;
+    /// `takes` is true for bodies to query; null: all.
+    template <class Takes>
+    requires std::is_constructible_v<std::function<bool(BodyId)>, Takes> QueryFilter(Takes takes)
+        : takes_(std::move(takes)) {}
+    QueryFilter(const ShapeFilter& as) : as_(as) {}
+    QueryFilter(const ShapeFilter& as, std::function<bool(BodyId)> takes)
+        : takes_(std::move(takes)), as_(as) {}
+
+    bool operator()(BodyId body, const ShapeFilter& shape) const {
+        return (!as_ || lets(*as_, shape)) && (!takes_ || takes_(body));
+    }
+
+  private:
+    std::function<bool(BodyId)> takes_;
+    std::optional<ShapeFilter> as_;
 };
 
 template <class S>
@@ -59,8 +83,7 @@ class WorldQueries {
   public:
     using Real = typename S::Real;
     using Vec = typename S::Vec;
-    /// True for bodies to query; null: all.
-    using Filter = std::function<bool(BodyId)>;
+    using Filter = QueryFilter;
 
     /// `world` must outlive this and not change meanwhile.
     explicit WorldQueries(const World<S>& world);

@@ -16,6 +16,7 @@
 #include "engine/math/space.hpp"
 #include "engine/shapes/shape.hpp"
 #include "engine/state/body_arrays.hpp"
+#include "engine/state/shape_filter.hpp"
 
 namespace rigor::engine {
 
@@ -71,6 +72,7 @@ struct ShapeDef {
     /// at the origin of the body frame [m/s], and the angular velocity [rad/s], in the axes of the body frame. A
     /// point x of the surface moves with v + w x x. Friction sees it, the normal does not.
     Velocity<S> surfaceVelocity = {};
+    ShapeFilter filter = {};     ///< what it collides with; by default, all
 };
 
 /// Coefficients of a pair of touching surfaces.
