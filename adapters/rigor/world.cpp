@@ -237,8 +237,7 @@ class RigorWorld final : public World, public StateSetting {
     bool isDynamic(int body) const {
         return body != scenario::kNone && scenario_.bodies[body].type == scenario::BodyType::Dynamic;
     }
-    /// The engine's material 0 is its own.
-    static std::uint32_t material(int index) { return index + 1; }
+    std::uint32_t material(int index) const { return materials_[static_cast<std::size_t>(index)]; }
 
     BodyState state(int body) const {
         const engine::Pose<S> X = world_.pose(id(body));
@@ -265,7 +264,8 @@ class RigorWorld final : public World, public StateSetting {
             });
         };
         const int count = scenario_.materials.size();
-        for (const scenario::Material& m : scenario_.materials) world_.addMaterial(toEngineCoefficients(m));
+        for (const scenario::Material& m : scenario_.materials)
+            materials_.push_back(world_.addMaterial(toEngineCoefficients(m)));
         for (int a = 0; a < count; ++a)
             for (int b = a; b < count; ++b) {
                 if (ownRule && !named(a, b)) continue;
@@ -365,6 +365,7 @@ class RigorWorld final : public World, public StateSetting {
     R dt_;
     double elapsed_ = 0.0;  ///< time when world_ was built anew [s]
     engine::World<S> world_;
+    std::vector<std::uint32_t> materials_;  ///< of the engine, by the scenario's index
     std::vector<engine::BodyId> bodies_;
     ScenarioIndices indices_;
     RigorStaged<S> staged_{world_, dt_, indices_};

@@ -17,6 +17,8 @@
 //     their ways. After kMaxImpacts in a step a body stays where it is until the step ends: it keeps its
 //     velocity and loses the time.
 // Chains, meshes and height fields are met piece by piece (surface_impact.cpp).
+// Only bodies that take part (BodyConstants::continuous) can be fast; they collide with all others. A callback
+// (contacts/pre_solve.hpp) is asked about each impact; one that it refuses is none for the rest of the (sub-)step.
 // A pair that touches already when the search begins, or has contact rows in this step, is left to the
 // solver: its impact counts only if the shapes would otherwise end up deeper in each other than a quarter of
 // their thickness. Bodies that are slow for their size are left to the contacts alone, so scenes without fast
@@ -72,6 +74,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
 
     bool resolve(const MovedWorld<S>& world, std::vector<ImpactEvent<S>>& events) override {
         takeWays(world);
+        vetoed_.clear();
         if (!anyFast(world)) return true;
         findCandidates(world);
         bool inTime = true;
@@ -83,7 +86,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
             std::erase_if(candidates_, [&](const Candidate& c) {
                 const std::uint32_t ca = bodyOf(world, c.a), cb = bodyOf(world, c.b);
                 return (ways_[a].changed && (ca == a || cb == a)) ||
-                       (ways_[b].changed && (ca == b || cb == b));
+                       (ways_[b].changed && (ca == b || cb == b)) || (c.a == hit.a && c.b == hit.b);
             });
             for (const std::uint32_t body : {a, b})
                 if (ways_[body].changed) searchFrom(world, body, hit.impact.time, body == a ? b : a);
@@ -133,9 +136,14 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
                 way.velocity,  record.boundingRadius, record.inscribedRadius};
     }
 
+    static bool isContinuous(const MovedWorld<S>& world, std::uint32_t shape) {
+        return world.bodies.constants[bodyOf(world, shape)].continuous;
+    }
+
     /// True if the shape is fast. If two shapes may pass through each other within a step, at least one of
     /// them moves by more than half of its own thickness.
     bool isFast(const MovedWorld<S>& world, std::uint32_t shape) const {
+        if (!isContinuous(world, shape)) return false;
         const MovingShape<S> m = moving(world, shape, 0);
         return m.motion(world.h) > Real(0.5) * m.inscribedRadius;
     }
@@ -183,7 +191,9 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
 
     void addCandidate(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j, Real time) {
         const ShapeSet<S>& shapes = world.contacts.shapes();
+        if (!isContinuous(world, i) && !isContinuous(world, j)) return;
         if (!world.contacts.filter().mayCollide(world.bodies, shapes[i], shapes[j])) return;
+        if (std::find(vetoed_.begin(), vetoed_.end(), pairKey(i, j)) != vetoed_.end()) return;
         const std::uint32_t bi = shapes[i].body, bj = shapes[j].body;
         // Bodies that impulses do not move meet a paused body in that body's half of the step.
         for (const auto& [paused, other] : {std::pair(bi, bj), std::pair(bj, bi)})
@@ -215,6 +225,14 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
             surfaceImpact_.collideAt(shapeA, shapeB, now, world.narrowPhase, manifold);
         else
             collideAt<S>(shapeA, shapeB, now, world.narrowPhase, manifold);
+        PairCoefficients<S> coefficients =
+            world.contacts.materials().pair(shapes[hit.a].material, shapes[hit.b].material);
+        if (world.contacts.preSolve() &&
+            !askPreSolve<S>(world.contacts.preSolve(), bodies, shapes[hit.a], shapes[hit.b], kNullIndex,
+                            manifold, shapeA.body.p, shapeB.body.p, coefficients)) {
+            vetoed_.push_back(pairKey(hit.a, hit.b));
+            return true;
+        }
         // The rest of its island follows when the next step finds it moving.
         for (const std::uint32_t i : {a, b}) {
             if (world.isPaused(i))
@@ -223,8 +241,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
                 wakeBody(bodies, i);
         }
         for (const std::uint32_t i : {a, b}) goTo(world, i, t);
-        impactSolver_.begin(bodies, shapes[hit.a], shapes[hit.b], manifold,
-                            world.contacts.materials().pair(shapes[hit.a].material, shapes[hit.b].material));
+        impactSolver_.begin(bodies, shapes[hit.a], shapes[hit.b], manifold, coefficients);
         const Real impulse = impactSolver_.solve(bodies, world.friction, world.restitutionThreshold, true);
         for (const std::uint32_t i : {a, b})
             if (moves(world, i)) bodies.velocity[i].v += (rest / world.h) * kick_[i];
@@ -287,6 +304,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
     std::vector<std::uint32_t> fast_;  ///< shapes, sorted
     std::vector<Aabb<S>> boxes_;       ///< swept, by shape
     std::vector<Candidate> candidates_;
+    std::vector<std::uint64_t> vetoed_;  ///< pairs of shapes whose impact the callback has refused
     ImpactSolver<S> impactSolver_;
     SurfaceImpact<S> surfaceImpact_;
 };

@@ -22,7 +22,7 @@ void FlightImpacts<S>::findFlying(const MovedWorld<S>& world) {
     if (std::find(flying_.begin(), flying_.end(), 1) == flying_.end()) return;
     for (const Contact<S>& contact : world.contacts.list()) {
         const std::uint32_t a = contact.bodyA, b = contact.bodyB;
-        if (!flying_[a] && !flying_[b]) continue;
+        if (contact.vetoed || (!flying_[a] && !flying_[b])) continue;
         const Real slowest = slowestImpact(world, contact.coefficients.restitution, a, b);
         for (int i = 0; i < contact.manifold.count; ++i) {
             if (std::abs(normalSpeed(contact, i)) > slowest) continue;

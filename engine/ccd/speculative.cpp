@@ -56,8 +56,10 @@ class Speculative final : public ContinuousCollision<S> {
                  Real h) override {
         h_ = h;
         moving_.resize(shapes.size());
+        continuous_.resize(shapes.size());
         for (std::size_t i = 0; i < shapes.size(); ++i) {
             const std::uint32_t body = shapes[i].body;
+            continuous_[i] = bodies.constants[body].continuous;
             MovingShape<S>& m = moving_[i];
             m = {&shapes[i].shape, shapes[i].local, bodies.pose[body], bodies.velocity[body], 0, 0};
             if (bodies.invMass[body] > 0)
@@ -69,6 +71,7 @@ class Speculative final : public ContinuousCollision<S> {
     }
 
     void growBox(std::uint32_t shape, Aabb<S>& box) const override {
+        if (!continuous_[shape]) return;
         const Aabb<S> swept = sweptBox<S>(moving_[shape], h_);
         box = {box.min.cwiseMin(swept.min), box.max.cwiseMax(swept.max)};
     }
@@ -79,7 +82,8 @@ class Speculative final : public ContinuousCollision<S> {
         // The world may have been copied since predict().
         a.shape = &shapes[contact.shapeA].shape;
         b.shape = &shapes[contact.shapeB].shape;
-        contact.speculative = mayPassUnseen<S>(a, b, h_);
+        contact.speculative =
+            (continuous_[contact.shapeA] || continuous_[contact.shapeB]) && mayPassUnseen<S>(a, b, h_);
         if (!contact.speculative || contact.manifold.count > 0) return;
         const TimeOfImpact<S> impact = timeOfImpact<S>(a, b, h_);
         if (!impact.hit) return;
@@ -114,7 +118,7 @@ class Speculative final : public ContinuousCollision<S> {
                                   record.boundingRadius, record.inscribedRadius};
         };
         for (const Contact<S>& contact : world.contacts.list()) {
-            if (!contact.speculative) continue;
+            if (!contact.speculative || contact.vetoed) continue;
             const MovingShape<S> a = moved(contact.shapeA), b = moved(contact.shapeB);
             const TimeOfImpact<S> impact = timeOfImpact<S>(a, b, world.h, true);
             if (!impact.hit) continue;
@@ -138,6 +142,7 @@ class Speculative final : public ContinuousCollision<S> {
                        const MovingShape<S>& still, const MovingShape<S>& moving) {
         const ShapeSet<S>& shapes = world.contacts.shapes();
         const std::uint32_t body = shapes[shape].body;
+        if (!world.bodies.constants[body].continuous) return;
         if (!mayPassUnseen<S>(still, moving, world.h)) return;
         if (!world.contacts.filter().mayCollide(world.bodies, shapes[surface], shapes[shape])) return;
         if (!sweptBox<S>(moving, world.h).overlaps(shapes.box(surface))) return;
@@ -154,8 +159,9 @@ class Speculative final : public ContinuousCollision<S> {
 
     SurfaceImpact<S> surfaceImpact_;
     Real h_ = 0;
-    std::vector<Pose<S>> starts_;         ///< start poses of the (sub-)step
-    std::vector<MovingShape<S>> moving_;  ///< motion of each shape by dense shape index
+    std::vector<Pose<S>> starts_;           ///< start poses of the (sub-)step
+    std::vector<std::uint8_t> continuous_;  ///< of each shape: its body takes part
+    std::vector<MovingShape<S>> moving_;    ///< motion of each shape by dense shape index
 };
 
 }  // namespace

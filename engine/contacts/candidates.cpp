@@ -160,10 +160,39 @@ void Candidates<S>::findPieces(const ShapeSet<S>& shapes, std::uint32_t surface,
 }
 
 template <class S>
-void Candidates<S>::clear() {
-    list_.clear();
+void Candidates<S>::renumber(std::span<const std::uint32_t> newIndex) {
+    std::vector<std::uint32_t>& order = list_.order();
     keys_.clear();
-    orphans_.clear();
+    std::size_t kept = 0;
+    for (const std::uint32_t slot : order) {
+        Candidate<S>& c = list_.at(slot);
+        c.a = newIndex[c.a];
+        c.b = newIndex[c.b];
+        if (c.a == kNullIndex || c.b == kNullIndex) {
+            list_.remove(slot);
+            continue;
+        }
+        order[kept++] = slot;
+        keys_.push_back(pairKey(c.a, c.b));
+    }
+    order.resize(kept);
+    invalidate();
+}
+
+template <class S>
+void Candidates<S>::orderBodies(const ShapeSet<S>& shapes) {
+    for (Candidate<S>& c : list_) {
+        if (shapes[c.a].body < shapes[c.b].body) continue;
+        std::swap(c.a, c.b);
+        c.byA = makeCandidate<S>(shapes, c.a, c.b, c.piece).byA;
+        c.cached = false;
+    }
+}
+
+template <class S>
+void Candidates<S>::forgetCached(const ShapeSet<S>& shapes, std::uint32_t body) {
+    for (Candidate<S>& c : list_)
+        if (shapes[c.a].body == body || shapes[c.b].body == body) c.cached = false;
 }
 
 template <class S>

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/contacts/collision_filter.hpp"
@@ -55,7 +56,13 @@ class Candidates {
                 PairSearch<S>& pairs, const ContactSearch<S>& search, const Tasks& tasks);
     /// Must be called after shapes or bodies were added or removed, or the filter has changed.
     void invalidate() { valid_ = mayCollideHolds_ = false; }
-    void clear();
+    /// Follows the shapes to their new indices, which keep their order; kNullIndex: the shape is gone, and with it the
+    /// candidates.
+    void renumber(std::span<const std::uint32_t> newIndex);
+    /// Swaps the two shapes of candidates whose bodies are out of order, and forgets their cached manifolds.
+    void orderBodies(const ShapeSet<S>& shapes);
+    /// The next step asks the narrow phase about the shapes of this body.
+    void forgetCached(const ShapeSet<S>& shapes, std::uint32_t body);
 
     SlotList<Candidate<S>>& list() { return list_; }
     const SlotList<Candidate<S>>& list() const { return list_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Events: contacts that have begun or ended in a step.
+// Events: contacts, and overlaps with sensors, that have begun or ended in a step.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,9 @@ namespace rigor::engine {
 
 enum class EventKind : std::uint8_t {
     ContactBegins,  ///< two shapes that did not touch in the last step touch (overlap, or push each other)
-    ContactEnds,    ///< they touched and do not any more
+    ContactEnds,    ///< they touched and do not any more, or one of them was removed
+    SensorBegins,  ///< a shape (B) overlaps a sensor (A) that it did not at the end of the last step (sensors.hpp)
+    SensorEnds,  ///< it did and does not any more
 };
 
 /// Fields that do not belong to the kind keep their defaults.
@@ -24,7 +26,7 @@ template <class S>
 struct Event {
     using Real = typename S::Real;
     EventKind kind = EventKind::ContactBegins;
-    BodyId bodyA, bodyB;  ///< A is the body of lower index
+    BodyId bodyA, bodyB;  ///< A is the body of lower index, or the sensor
     ShapeId shapeA, shapeB;
     typename S::Vec normal = S::Vec::Zero();  ///< unit, A to B, world frame
     Real depth = 0;                           ///< deepest overlap when found [m]; < 0: a gap

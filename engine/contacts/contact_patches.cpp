@@ -181,7 +181,7 @@ void PatchContacts<S>::prepare(ContactList<S>& contacts, const BodyArrays<S>& bo
             return patches_.setDescriptor(k, {contact.bodyA, contact.bodyB, false, false, 0});
         contact.asleep = isAsleep<S>(bodies, contact);
         const bool movesA = bodies.invMass[contact.bodyA] > 0, movesB = bodies.invMass[contact.bodyB] > 0;
-        const bool solved = !contact.asleep && (movesA || movesB);
+        const bool solved = !contact.asleep && !contact.vetoed && (movesA || movesB);
         contact.block.fill(solved ? Contact<S>::kPatch : kNullIndex);
         if (!solved && !contact.asleep) contact.totals.fill({});
         patches_.setDescriptor(k, {contact.bodyA, contact.bodyB, movesA, movesB,

@@ -110,7 +110,7 @@ void prepareRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, bool s
     }
     for (std::size_t i = 0; i < contact.block.size(); ++i) {
         const bool has = i < static_cast<std::size_t>(contact.manifold.count) && !contact.asleep &&
-                         preparePoint(bodies, step, contact, i);
+                         !contact.vetoed && preparePoint(bodies, step, contact, i);
         contact.block[i] = has ? 0 : kNullIndex;
         contact.blocks += has;
     }

@@ -145,7 +145,7 @@ void ContactUpdate<S>::makePoints(Candidate<S>& candidate, Contact<S>& contact) 
 /// Completes a contact for the solver: speculative points, coefficients, touching. False: it has no points.
 template <class S>
 bool ContactUpdate<S>::complete(Candidate<S>& candidate, Contact<S>& contact) const {
-    contact.asleep = contact.speculative = contact.placed = false;
+    contact.asleep = contact.speculative = contact.vetoed = contact.placed = false;
     // Continuous collision does not predict contacts with pieces of a chain, mesh or height field.
     if (candidate.piece == kNullIndex && ahead.looksAhead()) {
         placePoints<S>(bodies, contact);

@@ -2,6 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/contacts/contacts.hpp"
 
+#include <algorithm>
+#include <utility>
+
+#include "engine/narrowphase/surface_contact.hpp"
+
 namespace rigor::engine {
 
 template <class S>
@@ -17,14 +22,63 @@ void Contacts<S>::setShapeFilter(std::uint32_t shape, const ShapeFilter& filter)
 }
 
 template <class S>
-void Contacts<S>::structureChanged(bool indicesChanged) {
+void Contacts<S>::structureChanged() {
     shapes_.changed();
     pairs_.reset();
     candidates_.invalidate();
+    sensors_.shapesChanged();
     coefficientsOf_ = 0;
-    if (!indicesChanged) return;
-    list_.clear();
-    candidates_.clear();
+}
+
+template <class S>
+void Contacts<S>::removeShapes(const BodyArrays<S>& bodies, std::span<const std::uint8_t> gone) {
+    for (const Contact<S>& contact : list_) {
+        if (!contact.touching || !(gone[contact.shapeA] || gone[contact.shapeB])) continue;
+        Event<S>& event = removedEvents_.emplace_back();
+        event.kind = EventKind::ContactEnds;
+        event.bodyA = bodies.id[contact.bodyA];
+        event.bodyB = bodies.id[contact.bodyB];
+        event.shapeA = shapes_[contact.shapeA].id;
+        event.shapeB = shapes_[contact.shapeB].id;
+    }
+    const std::vector<std::uint32_t> newIndex = shapes_.remove(gone);
+    candidates_.renumber(newIndex);
+    std::vector<std::uint32_t>& order = list_.order();
+    std::size_t kept = 0;
+    for (const std::uint32_t slot : order) {
+        Contact<S>& contact = list_.at(slot);
+        contact.shapeA = newIndex[contact.shapeA];
+        contact.shapeB = newIndex[contact.shapeB];
+        if (contact.shapeA == kNullIndex || contact.shapeB == kNullIndex)
+            list_.remove(slot);
+        else
+            order[kept++] = slot;
+    }
+    order.resize(kept);
+    structureChanged();
+}
+
+/// A contact whose bodies are now out of order is turned around; its features match those of the next step by place.
+template <class S>
+void Contacts<S>::bodyMoved(std::uint32_t from, std::uint32_t to) {
+    for (ShapeRecord<S>& shape : shapes_.records())
+        if (shape.body == from) shape.body = to;
+    candidates_.orderBodies(shapes_);
+    for (Contact<S>& contact : list_) {
+        if (contact.bodyA == from) contact.bodyA = to;
+        if (contact.bodyB == from) contact.bodyB = to;
+        if (contact.bodyA < contact.bodyB) continue;
+        std::swap(contact.bodyA, contact.bodyB);
+        std::swap(contact.shapeA, contact.shapeB);
+        flipManifold(contact.manifold);
+        contact.cache = {};
+        contact.placed = false;
+        for (std::size_t i = 0; i < contact.impulses.size(); ++i) {
+            contact.impulses[i].friction = -contact.impulses[i].friction;
+            contact.totals[i].friction = -contact.totals[i].friction;
+            std::swap(contact.points[i].rA, contact.points[i].rB);
+        }
+    }
 }
 
 template <class S>
@@ -45,6 +99,7 @@ template <class S>
 void Contacts<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
                                 ManifoldFunction<S> makeManifold, const LookAhead<S>& ahead,
                                 const Tasks& tasks) {
+    filter_.setVetoed({});
     candidates_.update(bodies, shapes_, filter_, pairs_, search_, tasks);
     // It keeps the points as they are.
     if (makeManifold == &manifoldClipped<S>) makeManifold = nullptr;
@@ -60,11 +115,33 @@ void Contacts<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S
                                   search_.bouncesAhead};
     finder_.run(update, pairs_.exact(), candidates_, list_, tasks);
     coefficientsOf_ = materials_.revision();
+    if (preSolve_) askPreSolve(bodies);
+}
+
+/// Contacts of bodies that sleep keep what they had.
+template <class S>
+void Contacts<S>::askPreSolve(const BodyArrays<S>& bodies) {
+    coefficientsOf_ = 0;
+    std::vector<std::uint64_t> vetoed;
+    for (Contact<S>& contact : list_) {
+        const ShapeRecord<S>&a = shapes_[contact.shapeA], &b = shapes_[contact.shapeB];
+        if (!isAsleep<S>(bodies, contact))
+            contact.vetoed = !engine::askPreSolve<S>(preSolve_, bodies, a, b, contact.piece, contact.manifold,
+                                                     bodies.pose[contact.bodyA].p,
+                                                     bodies.pose[contact.bodyB].p, contact.coefficients);
+        if (!contact.vetoed) continue;
+        contact.touching = false;
+        contact.impulses.fill({});
+        vetoed.push_back(CollisionFilter<S>::vetoKey(a, b));
+    }
+    std::sort(vetoed.begin(), vetoed.end());
+    filter_.setVetoed(std::move(vetoed));
 }
 
 template <class S>
 bool Contacts<S>::completeRestored() {
     coefficientsOf_ = 0;
+    removedEvents_.clear();
     candidates_.invalidate();
     if (!candidates_.completeRestored(shapes_)) return false;
     for (Contact<S>& contact : list_) {

@@ -26,6 +26,8 @@
 #include "engine/contacts/contact_finder.hpp"
 #include "engine/contacts/material_table.hpp"
 #include "engine/contacts/pair_search.hpp"
+#include "engine/contacts/pre_solve.hpp"
+#include "engine/contacts/sensors.hpp"
 #include "engine/contacts/shape_set.hpp"
 #include "engine/contacts/surface_sides.hpp"
 
@@ -51,9 +53,22 @@ class Contacts {
     void setExcluded(std::vector<std::uint64_t> pairs);
     /// Replaces the filter of a shape.
     void setShapeFilter(std::uint32_t shape, const ShapeFilter& filter);
-    /// Must be called after shapes or bodies were added, removed or, being static, moved; removes all contacts
-    /// if dense indices changed.
-    void structureChanged(bool indicesChanged);
+    /// Must be called after shapes were added, bodies have changed their type, or static ones have moved.
+    void structureChanged();
+    /// Removes the shapes of which the flag is 1. Contacts of the others stay; those of the removed ones end.
+    void removeShapes(const BodyArrays<S>& bodies, std::span<const std::uint8_t> gone);
+    /// Must be called after a body has got another dense index.
+    void bodyMoved(std::uint32_t from, std::uint32_t to);
+    /// Must be called after a shape has got another material.
+    void materialsChanged() { coefficientsOf_ = 0; }
+    /// Sets the callback that is asked about each contact before it is solved; null: none.
+    void setPreSolve(PreSolve<S> ask) {
+        preSolve_ = std::move(ask);
+        coefficientsOf_ = 0;
+    }
+    const PreSolve<S>& preSolve() const { return preSolve_; }
+    Sensors<S>& sensors() { return sensors_; }
+    const Sensors<S>& sensors() const { return sensors_; }
 
     /// The contacts of this body start the next step without impulses.
     void forgetImpulses(std::uint32_t body);
@@ -77,15 +92,20 @@ class Contacts {
     void keepSides(BodyArrays<S>& bodies, const Tasks& tasks) {
         sides_.keep(shapes_, filter_, bodies, tasks);
     }
-    /// Appends an event for every contact that has begun or ended.
+    /// Appends an event for every contact, then for every overlap with a sensor, that has begun or ended.
     void addEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events, const Tasks& tasks) {
+        events.insert(events.end(), removedEvents_.begin(), removedEvents_.end());
+        removedEvents_.clear();
         events_.add(bodies, shapes_.records(), list_, finder_.ended(), events, tasks);
+        sensors_.update(shapes_, filter_, bodies, events, tasks);
     }
     /// Completes a restored state. False: contacts and cached manifolds are inconsistent, or a shape is
     /// missing.
     bool completeRestored();
 
   private:
+    void askPreSolve(const BodyArrays<S>& bodies);
+
     MaterialTable<S> materials_;
     ShapeSet<S> shapes_;
     CollisionFilter<S> filter_;
@@ -95,6 +115,9 @@ class Contacts {
     ContactFinder<S> finder_;
     SurfaceSides<S> sides_;
     ContactEvents<S> events_;
+    std::vector<Event<S>> removedEvents_;  ///< ends of contacts whose shapes were removed since the last step
+    Sensors<S> sensors_;
+    PreSolve<S> preSolve_;
     ContactSearch<S> search_;  ///< search distances of this step
     /// Revision of the materials that the coefficients of the list are from; 0: some may be from none.
     std::uint64_t coefficientsOf_ = 0;

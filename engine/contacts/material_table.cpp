@@ -21,6 +21,13 @@ PairCoefficients<S> MaterialTable<S>::combine(const PairCoefficients<S>& a,
 }
 
 template <class S>
+void MaterialTable<S>::setCombineRules(CombineRule<Real> friction, CombineRule<Real> restitution) {
+    combineFriction_ = friction;
+    combineRestitution_ = restitution;
+    add({Real(0.6), Real(0), Real(0)});
+}
+
+template <class S>
 std::uint32_t MaterialTable<S>::add(const PairCoefficients<S>& own) {
     const std::uint32_t added = size_++;
     materials_.push_back(own);

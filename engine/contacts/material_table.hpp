@@ -3,7 +3,7 @@
 //
 // Materials, and the coefficients of each pair of them.
 //
-//     materials  [ 0 | 1 | 2 ]        0: frictionless and inelastic
+//     materials  [ 0 | 1 | 2 ]        0 and 1: kFrictionless, kUsualMaterial (state/world_def.hpp)
 //     pairs      [ 00 01 02 ]         row by row; by the combine rules, or as set
 //                [ 10 11 12 ]
 //                [ 20 21 22 ]
@@ -24,11 +24,8 @@ class MaterialTable {
   public:
     using Real = typename S::Real;
 
-    /// Must be called before materials are added.
-    void setCombineRules(CombineRule<Real> friction, CombineRule<Real> restitution) {
-        combineFriction_ = friction;
-        combineRestitution_ = restitution;
-    }
+    /// Must be called once, before materials are added: adds the usual one.
+    void setCombineRules(CombineRule<Real> friction, CombineRule<Real> restitution);
     /// A material of these coefficients with itself. Returns its index.
     std::uint32_t add(const PairCoefficients<S>& own);
     void setPair(std::uint32_t a, std::uint32_t b, const PairCoefficients<S>& coefficients);

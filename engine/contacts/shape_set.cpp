@@ -30,19 +30,20 @@ ShapeId ShapeSet<S>::add(const ShapeRecord<S>& record) {
 }
 
 template <class S>
-void ShapeSet<S>::bodyRemoved(std::uint32_t gone, std::uint32_t last) {
-    std::size_t kept = 0;
+std::vector<std::uint32_t> ShapeSet<S>::remove(std::span<const std::uint8_t> gone) {
+    std::vector<std::uint32_t> newIndex(records_.size(), kNullIndex);
+    std::uint32_t kept = 0;
     for (std::size_t i = 0; i < records_.size(); ++i) {
-        if (records_[i].body == gone) {
+        if (gone[i]) {
             ids_.remove(records_[i].id);
             continue;
         }
-        if (records_[i].body == last) records_[i].body = gone;
-        ids_.move(records_[i].id, static_cast<std::uint32_t>(kept));
+        ids_.move(records_[i].id, kept);
         if (kept != i) records_[kept] = records_[i];
-        ++kept;
+        newIndex[i] = kept++;
     }
     records_.resize(kept);
+    return newIndex;
 }
 
 template <class S>
@@ -50,7 +51,7 @@ void ShapeSet<S>::changed() {
     staticsValid_ = false;
     surfaces_.clear();
     for (std::uint32_t i = 0; i < records_.size(); ++i)
-        if (isComposite<S>(records_[i].shape)) surfaces_.push_back(i);
+        if (isComposite<S>(records_[i].shape) && !records_[i].sensor) surfaces_.push_back(i);
 }
 
 template <class S>

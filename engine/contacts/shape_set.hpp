@@ -39,8 +39,9 @@ class ShapeSet {
     const IdTable<ShapeTag>& ids() const { return ids_; }
 
     ShapeId add(const ShapeRecord<S>& record);
-    /// Removes the shapes of body `gone`, whose dense index body `last` takes.
-    void bodyRemoved(std::uint32_t gone, std::uint32_t last);
+    /// Removes the shapes of which the flag is 1; the others keep their order. Returns the new index of each, kNullIndex
+    /// of those that are gone.
+    std::vector<std::uint32_t> remove(std::span<const std::uint8_t> gone);
     /// Must be called after records or static bodies have changed.
     void changed();
 
@@ -68,7 +69,7 @@ class ShapeSet {
     Real motion(std::size_t i, std::size_t k) const {
         return ahead_[i] || ahead_[k] ? motions_[i] + motions_[k] : Real(0);
     }
-    /// Indices of the shapes that are chains, meshes or height fields.
+    /// Indices of the shapes that are chains, meshes or height fields, and no sensors.
     const std::vector<std::uint32_t>& surfaces() const { return surfaces_; }
 
   private:

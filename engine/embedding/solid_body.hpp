@@ -16,13 +16,12 @@ template <class S>
 struct SolidPart {
     Shape<S> shape;
     typename S::Real density = 1000;  ///< [kg/m^3] (2D: [kg/m^2]), > 0
-    std::uint32_t material = 0;
+    std::uint32_t material = kUsualMaterial;
     Pose<S> pose = {};
 };
 
-/// Adds a body of these parts. Mass, centre of mass and inertia of `def` are replaced by those of the parts, summed
-/// (Steiner's theorem), where the body is dynamic. Throws EngineError as World::addBody and addShape do, and
-/// std::invalid_argument for parts of a dynamic body that have no volume.
+/// Adds a body of these parts in one call. Its mass, centre of mass and inertia are those of the parts, whatever `def`
+/// says; the velocity of `def` is that of the centre of mass. Throws EngineError as World::addBody and addShape do.
 template <class S>
 BodyId addSolid(World<S>& world, std::initializer_list<SolidPart<S>> parts, BodyDef<S> def = {});
 

@@ -67,6 +67,14 @@ void ForceSet<S>::remove(ForceId id) {
 }
 
 template <class S>
+void ForceSet<S>::centerMoved(std::uint32_t body, const typename S::Vec& way) {
+    for (Record& record : records_) {
+        if (record.place.a == body) record.place.armA -= way;
+        if (record.place.b == body) record.place.armB -= way;
+    }
+}
+
+template <class S>
 void ForceSet<S>::bodyRemoved(std::uint32_t gone, std::uint32_t last) {
     std::uint32_t kept = 0;
     for (std::size_t i = 0; i < records_.size(); ++i) {

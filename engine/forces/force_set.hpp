@@ -24,6 +24,8 @@ class ForceSet {
     void remove(ForceId id);
     /// Removes the forces of body `gone`, whose dense index body `last` takes.
     void bodyRemoved(std::uint32_t gone, std::uint32_t last);
+    /// The centre of mass of a body has moved by `way`, body axes [m]: arms are from it.
+    void centerMoved(std::uint32_t body, const typename S::Vec& way);
 
     bool contains(ForceId id) const { return ids_.contains(id); }
     const ForceDef<S>& def(ForceId id) const { return records_[ids_.dense(id)].def; }

@@ -37,6 +37,10 @@ const char* eventName(EventKind kind) {
     switch (kind) {
         case EventKind::ContactBegins:
             return "contact_begins";
+        case EventKind::SensorBegins:
+            return "sensor_begins";
+        case EventKind::SensorEnds:
+            return "sensor_ends";
         case EventKind::ContactEnds:
             break;
     }
@@ -49,7 +53,7 @@ std::string bodyName(BodyId body) {
 
 template <class S>
 std::string describe(const Event<S>& e, const NameOf& nameOf) {
-    if (e.kind == EventKind::ContactEnds)
+    if (e.kind != EventKind::ContactBegins)
         return std::string(eventName(e.kind)) + " a=" + nameOf(e.bodyA) + " b=" + nameOf(e.bodyB);
     return line<S>(eventName(e.kind), e.bodyA, e.bodyB, e.normal, e.depth, e.impulse, nameOf);
 }

@@ -21,7 +21,7 @@ using NameOf = std::function<std::string(BodyId)>;
 /// "body_3" for the body of index 3, "world" for none.
 std::string bodyName(BodyId body);
 
-/// contact_begins a=box_3 b=ground n=(0,1,0) depth=1.2e-4 jn=0.163
+/// contact_begins a=box_3 b=ground n=(0,1,0) depth=1.2e-4 jn=0.163; of other kinds: contact_ends a=box_3 b=ground
 template <class S>
 std::string describe(const Event<S>& event, const NameOf& nameOf = bodyName);
 /// contact a=box_3 b=ground n=(0,1,0) depth=1.2e-4 jn=0.163

@@ -58,7 +58,7 @@ void Step<S>::injectFault(Phase phase) {
             break;
         case Phase::Move:
             fault.moved(bodies_, motion_.startRotations(), state_.substepSize);
-            if (fault.movesStatics()) contacts_.structureChanged(false);
+            if (fault.movesStatics()) contacts_.structureChanged();
             break;
         default:
             break;

@@ -61,6 +61,14 @@ void Joints<S>::bodyRemoved(std::uint32_t gone, std::uint32_t last) {
 }
 
 template <class S>
+void Joints<S>::centerMoved(std::uint32_t body, const Vec& way) {
+    for (Record& record : records()) {
+        if (record.joint.a == body) record.joint.anchorA -= way;
+        if (record.joint.b == body) record.joint.anchorB -= way;
+    }
+}
+
+template <class S>
 std::vector<std::uint64_t> Joints<S>::exclusions() const {
     std::vector<std::uint64_t> pairs;
     for (const Record& record : records())

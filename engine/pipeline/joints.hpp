@@ -38,6 +38,8 @@ class Joints {
     void remove(JointId joint);
     /// Removes the joints of body `gone`, whose dense index body `last` takes.
     void bodyRemoved(std::uint32_t gone, std::uint32_t last);
+    /// The centre of mass of a body has moved by `way`, body axes [m]: anchors are relative to it.
+    void centerMoved(std::uint32_t body, const Vec& way);
     /// Pairs of bodies that joints keep from colliding: sorted keys (pairKey).
     std::vector<std::uint64_t> exclusions() const;
     /// Replaces `broken` by the joints whose mean force or torque over `duration` [s] was too large for them.

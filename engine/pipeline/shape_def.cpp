@@ -70,16 +70,23 @@ bool validShape(const Shape<S>& shape) {
 }  // namespace
 
 template <class S>
+void requireBodyType(const Shape<S>& shape, BodyType type) {
+    const bool isStatic = type == BodyType::Static;
+    require(!std::holds_alternative<HalfSpace<S>>(shape) || isStatic, "half_space_body",
+            "a half-space needs a static body");
+    require(!isStaticOnly<S>(shape) || isStatic, "surface_body",
+            "segments, chains, triangles, meshes and height fields need a static body");
+}
+
+template <class S>
 ShapeRecord<S> makeShapeRecord(const ShapeDef<S>& def, const BodyConstants<S>& constants,
                                std::uint32_t body) {
     require(validPose<S>(def.pose), "shape_pose", "position must be finite, orientation a unit rotation");
     require(validShape<S>(def.shape), "shape_size",
             "sizes must be positive and finite, normals unit vectors");
-    const bool isStatic = constants.type == BodyType::Static;
-    require(!std::holds_alternative<HalfSpace<S>>(def.shape) || isStatic, "half_space_body",
-            "a half-space needs a static body");
-    require(!isStaticOnly<S>(def.shape) || isStatic, "surface_body",
-            "segments, chains, triangles, meshes and height fields need a static body");
+    require(def.density >= 0 && std::isfinite(def.density), "shape_density",
+            "density must be finite and not negative");
+    requireBodyType<S>(def.shape, constants.type);
     ShapeRecord<S> record;
     record.shape = def.shape;
     record.local = {def.pose.p - constants.centerOfMass, normalizedRot(def.pose.q)};
@@ -87,6 +94,8 @@ ShapeRecord<S> makeShapeRecord(const ShapeDef<S>& def, const BodyConstants<S>& c
     record.material = def.material;
     setSurfaceVelocity<S>(record, def.surfaceVelocity, constants);
     record.filter = def.filter;
+    record.sensor = def.sensor;
+    record.density = def.sensor ? typename S::Real(0) : def.density;
     record.boundingRadius = coreBoundingRadius<S>(record.shape, record.local);
     record.inscribedRadius = inscribedRadiusOf<S>(record.shape);
     record.middle = middleOf<S>(record.shape);
@@ -106,6 +115,7 @@ void setSurfaceVelocity(ShapeRecord<S>& record, const Velocity<S>& surface,
 }
 
 #define RIGOR_INSTANTIATE(S)                                                                        \
+    template void requireBodyType<S>(const Shape<S>&, BodyType);                                    \
     template void setSurfaceVelocity(ShapeRecord<S>&, const Velocity<S>&, const BodyConstants<S>&); \
     template ShapeRecord<S> makeShapeRecord<S>(const ShapeDef<S>&, const BodyConstants<S>&, std::uint32_t);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)

@@ -9,6 +9,10 @@
 
 namespace rigor::engine {
 
+/// Throws EngineError "half_space_body" or "surface_body" for shapes that need a static body where it is not.
+template <class S>
+void requireBodyType(const Shape<S>& shape, BodyType type);
+
 /// Record of a shape on a body with these constants and this dense index. Throws EngineError for poses and
 /// sizes out of range, and for shapes that need a static body where it is not.
 template <class S>

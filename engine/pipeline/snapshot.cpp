@@ -19,7 +19,7 @@ namespace rigor::engine {
 namespace {
 
 constexpr char kMagic[8] = {'R', 'I', 'G', 'O', 'R', 'S', 'N', 'P'};
-constexpr std::uint32_t kVersion = 8;  ///< raised with every change of state_fields.def
+constexpr std::uint32_t kVersion = 9;  ///< raised with every change of state_fields.def
 constexpr std::uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -51,6 +51,10 @@ void visitContact(A& archive, C& contact) {
     // Hashes of worlds without moments do not have them.
     if (!std::is_same_v<A, HashArchive> || dotAng(contact.moment, contact.moment) > 0) {
 #define MOMENT_FIELD(member) visitValue(archive, contact.member);
+#include "engine/state/state_fields.def"
+    }
+    if (!std::is_same_v<A, HashArchive> || contact.vetoed) {
+#define VETO_FIELD(member) visitValue(archive, contact.member);
 #include "engine/state/state_fields.def"
     }
     const int count = contact.manifold.count;
@@ -89,6 +93,16 @@ void visitManifoldCache(A& archive, C& candidates) {
     }
 }
 
+template <class A, class List>
+void visitOverlaps(A& archive, List& overlaps) {
+    const std::size_t count = archive.size(overlaps.size());
+    if constexpr (!std::is_const_v<List>) overlaps.resize(count);
+    for (auto& overlap : overlaps) {
+#define OVERLAP_FIELD(member) visitValue(archive, overlap.member);
+#include "engine/state/state_fields.def"
+    }
+}
+
 /// World: WorldParts, const to be read.
 template <class S, class A, class World>
 void visitState(A& archive, World& world) {
@@ -120,6 +134,12 @@ void visitState(A& archive, World& world) {
     const std::size_t count = archive.size(contacts.size());
     if constexpr (!std::is_const_v<World>) contacts.reset(count);
     for (auto& contact : contacts) visitContact(archive, contact);
+    if (!std::is_same_v<A, HashArchive> || world.gravityChanged) {
+#define SET_FIELD(member) visitValue(archive, world.member);
+#include "engine/state/state_fields.def"
+    }
+    auto& overlaps = world.contacts.sensors().overlaps();
+    if (!std::is_same_v<A, HashArchive> || !overlaps.empty()) visitOverlaps(archive, overlaps);
     // These follow from the rest of the state where no island is large.
     const bool large = std::any_of(bodies.islands.begin(), bodies.islands.end(),
                                    [](IslandSize size) { return size == IslandSize::Large; });
@@ -141,6 +161,7 @@ std::uint64_t structureHash(const WorldParts<S>& world) {
     for (const BodyConstants<S>& body : bodies.constants) {
         hash.scalar(body.type);
         hash.scalar(body.collides);
+        hash.scalar(body.continuousMode);
         hash.scalar(body.mass);
         visitValue(hash, body.inertia);
         visitValue(hash, body.centerOfMass);
@@ -152,6 +173,8 @@ std::uint64_t structureHash(const WorldParts<S>& world) {
     for (const ShapeRecord<S>& shape : world.contacts.shapes().records()) {
         hash.scalar(shape.body);
         hash.scalar(shape.material);
+        hash.scalar(shape.sensor);
+        hash.scalar(shape.density);
         visitValue(hash, shape.local);
         hash.size(shape.shape.index());
         const Aabb<S> box = boundingBox<S>(shape.shape, Pose<S>{});
@@ -279,7 +302,7 @@ void World<S>::restoreSnapshot(std::span<const unsigned char> bytes) {
     for (Contact<S>& contact : restored.contacts.list())
         contact.islands = sizeOf(contact.bodyA, contact.bodyB);
     for (auto& record : restored.joints.records()) record.islands = sizeOf(record.joint.a, record.joint.b);
-    restored.contacts.structureChanged(false);
+    restored.contacts.structureChanged();
     restored.algorithms.broadPhase->reset();
     next.step_.result = {};
     *this = std::move(next);

@@ -120,12 +120,17 @@ void Step<S>::begin(Real h) {
 
 template <class S>
 void Step<S>::runAll() {
-    tasks_.withWorkers([this] {
-        forEachStage(world_, state_, [this](IslandSize islands, Phase phase, int substep, Work work) {
-            Step(world_, state_, islands).run(phase, substep, work);
+    try {
+        tasks_.withWorkers([this] {
+            forEachStage(world_, state_, [this](IslandSize islands, Phase phase, int substep, Work work) {
+                Step(world_, state_, islands).run(phase, substep, work);
+            });
+            end();
         });
-        end();
-    });
+    } catch (...) {
+        abandon();
+        throw;
+    }
 }
 
 template <class S>
@@ -145,12 +150,24 @@ void Step<S>::runNext() {
     if (!state_.active) throw EngineError("no_step", "no step has begun");
     const int next = state_.stagesDone;
     int stages = 0;
-    tasks_.withWorkers([&] {
-        forEachStage(world_, state_, [&](IslandSize islands, Phase phase, int substep, Work work) {
-            if (stages++ == next) Step(world_, state_, islands).run(phase, substep, work);
+    try {
+        tasks_.withWorkers([&] {
+            forEachStage(world_, state_, [&](IslandSize islands, Phase phase, int substep, Work work) {
+                if (stages++ == next) Step(world_, state_, islands).run(phase, substep, work);
+            });
+            if (state_.stagesDone == stages) end();
         });
-        if (state_.stagesDone == stages) end();
-    });
+    } catch (...) {
+        abandon();
+        throw;
+    }
+}
+
+/// A callback has thrown: the step ends where it is, and the next one may begin.
+template <class S>
+void Step<S>::abandon() {
+    state_.active = false;
+    for (std::uint32_t i = 0; i < state_.sort.paused.size(); ++i) resume(i);
 }
 
 template <class S>

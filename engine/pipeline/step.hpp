@@ -86,6 +86,7 @@ class Step {
     static void forEachStage(const WorldParts<S>& world, const StepState<S>& state, const Visitor& stage);
     void run(Phase phase, int substep, Work work);
     void end();
+    void abandon();
     void injectFault(Phase phase);
 
     // --- islands by size

@@ -104,6 +104,7 @@ StepAlgorithms<S>::StepAlgorithms(const WorldDef<S>& def) {
         findAlgorithm(positionCorrectionTable<S>(), "position_correction", def.positionCorrection).make();
     ccd =
         findAlgorithm(continuousCollisionTable<S>(), "continuous_collision", def.continuousCollision).make();
+    continuous = continuousCollisionTraits(def.continuousCollision).acts;
     sleeping = findAlgorithm(sleepingTable<S>(), "sleeping", def.sleeping).make();
     restitution = findAlgorithm(restitutionTable<S>(), "restitution", def.restitution).make();
     combineFriction = findAlgorithm(combineTable<Real>(), "friction_combine", def.frictionCombine).make;

@@ -45,6 +45,7 @@ struct StepAlgorithms {
     ClonePtr<PositionCorrection<S>> correction;
     ClonePtr<ContinuousCollision<S>> ccd;
     SleepingScheme<S> sleeping;
+    bool continuous = false;          ///< `ccd` acts
     bool locatesImpacts = false;      ///< impacts of bodies in flight take place at their own times (ccd)
     const Fault<S>* fault = nullptr;  ///< null: none
 };

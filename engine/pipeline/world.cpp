@@ -38,7 +38,9 @@ World<S>::World(const WorldDef<S>& def) : parts_(def) {}
 template <class S>
 BodyId World<S>::addBody(const BodyDef<S>& def) {
     islands();  // finds the islands of the last step
-    return parts_.bodies.add(def);
+    const BodyId id = parts_.bodies.add(def);
+    parts_.setContinuous(parts_.bodies.dense(id), def.continuous);
+    return id;
 }
 
 template <class S>
@@ -52,8 +54,9 @@ ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
     const BodyArrays<S>& bodies = parts_.bodies.arrays();
     require(def.material < parts_.contacts.materials().size(), "shape_material", "unknown material");
     const ShapeId id = parts_.contacts.shapes().add(makeShapeRecord<S>(def, bodies.constants[dense], dense));
-    parts_.wakeReachOf(dense);
-    parts_.contacts.structureChanged(false);
+    parts_.addShapeMass(dense);
+    if (!def.sensor) parts_.wakeReachOf(dense);
+    parts_.contacts.structureChanged();
     return id;
 }
 
@@ -211,7 +214,7 @@ void World<S>::setPose(BodyId body, const Pose<S>& pose) {
     bodies.stillTime[i] = 0;
     bodies.leaveMidpoint(i);
     parts_.contacts.forgetImpulses(i);
-    if (bodies.constants[i].type == BodyType::Static) parts_.contacts.structureChanged(false);
+    if (bodies.constants[i].type == BodyType::Static) parts_.contacts.structureChanged();
 }
 
 template <class S>
@@ -277,7 +280,7 @@ void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
         for (int i = 0; i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             const ManifoldPoint<S>& where = contact.manifold.points[k];
-            if (contact.block[k] == kNullIndex && !contact.asleep) continue;
+            if (contact.vetoed || (contact.block[k] == kNullIndex && !contact.asleep)) continue;
             out.push_back({bodies.id[contact.bodyA], bodies.id[contact.bodyB], shapes[contact.shapeA].id,
                            shapes[contact.shapeB].id, where.pointA, where.pointB, contact.manifold.normal,
                            where.separation, contact.totals[k].normal, contact.totals[k].friction});

@@ -34,6 +34,10 @@ class World {
     /// Removes the body with its shapes, joints and forces.
     void removeBody(BodyId body);
     ShapeId addShape(BodyId body, const ShapeDef<S>& def);
+    /// Removes the shape; its contacts end, and what touched its body wakes. A body whose mass is that of its shapes
+    /// gets another one. Throws EngineError "step_in_progress" between the phases of a step.
+    void removeShape(ShapeId shape);
+    bool contains(ShapeId shape) const { return parts_.contacts.shapes().ids().contains(shape); }
     /// Replaces what a shape collides with, and wakes the bodies that this may move. Contacts that it no longer
     /// allows end in the next step. Throws EngineError "step_in_progress" between the phases of a step.
     void setFilter(ShapeId shape, const ShapeFilter& filter);
@@ -76,6 +80,11 @@ class World {
         return Step<S>::next(parts_, step_).substep;
     }  ///< sub-step of the next phase: 0 .. substeps() - 1
     void runPhase();
+    /// Sets the callback that may refuse a contact, or change its coefficients, before a step solves it
+    /// (contacts/pre_solve.hpp); null: none. Copies of the world have the same callback. What it throws ends the step
+    /// where it is and leaves step(); the world may go on from there, or from a snapshot. A callback may read the world
+    /// but not change it.
+    void setPreSolve(PreSolve<S> ask) { parts_.contacts.setPreSolve(std::move(ask)); }
     /// Sets the observer of the solver, null: none. Copies of the world have the same observer.
     void observeIterations(IterationObserver<S> observer) { step_.observer = std::move(observer); }
 
@@ -134,6 +143,38 @@ class World {
     /// EngineError "sleeping" where the world has no sleeping that would wake it.
     void wake(BodyId body);
     void putToSleep(BodyId body);
+
+    // --- changes while running. Each wakes what it may set in motion, and throws EngineError "step_in_progress" between
+    // the phases of a step. A snapshot is of a world with the same types, masses, densities, materials, gravity scales
+    // and continuous modes; restoring it sets gravity back.
+    /// Makes a body static, kinematic or dynamic. A static one loses its velocity; others keep theirs. A dynamic one has
+    /// the mass that its definition or its shapes give it. Throws "half_space_body", "surface_body" for shapes that need
+    /// a static body.
+    void setType(BodyId body, BodyType type);
+    /// Mass [kg], centre of mass in the body frame [m], inertia about it, body axes [kg m^2] of a dynamic body, by hand:
+    /// shapes no longer change them. Every point of the body keeps its velocity. Throws "body_mass",
+    /// "body_center_of_mass", "body_inertia".
+    void setMass(BodyId body, const MassProperties<S>& properties);
+    /// The mass properties of the shapes, by their densities, from now on; scaled to `mass` [kg] if that is > 0.
+    void setMassOfShapes(BodyId body, Real mass = 0);
+    /// Density of a shape [kg/m^3] (2D: [kg/m^2]), >= 0; changes its body's mass if that is of its shapes. Throws
+    /// "shape_density", for sensors, too.
+    void setDensity(ShapeId shape, Real density);
+    /// Throws "shape_material" for a material that there is not.
+    void setMaterial(ShapeId shape, std::uint32_t material);
+    /// Gravity of the world [m/s^2]; def() shows it.
+    void setGravity(const Vec& gravity);
+    /// Factor on the world's gravity for one body.
+    void setGravityScale(BodyId body, Real scale);
+    /// Whether continuous collision looks at a body, as BodyDef::continuous. The first body that needs it in a world
+    /// without brings the algorithm, and with it rounding: bodies of large scenes no longer move in SIMD, and with
+    /// moreau_midpoint impacts of bodies in flight are those of the algorithm.
+    void setContinuous(BodyId body, ContinuousMode mode);
+
+    /// What overlaps or touches a sensor: shapes of other bodies, sorted, as they were at the end of the last step
+    /// (contacts/sensors.hpp); StepResult::events has the changes. The list is valid until the next step. Throws
+    /// EngineError "sensor" for a shape that is none.
+    std::span<const SensorOverlap> sensorOverlaps(ShapeId sensor) const;
     const PairCoefficients<S>& pairCoefficients(std::uint32_t a, std::uint32_t b) const;
     const WorldDef<S>& def() const { return parts_.def; }
     /// Sub-steps of a step, and most iterations of each: the settings, or the solver's own.
@@ -176,6 +217,8 @@ class World {
     void restoreSnapshot(std::span<const unsigned char> bytes);
 
   private:
+    void requireBetweenSteps() const;
+
     WorldParts<S> parts_;
     StepState<S> step_;
 };

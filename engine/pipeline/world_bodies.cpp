@@ -4,26 +4,11 @@
 
 #include <cmath>
 
-#include "engine/math/decompositions.hpp"
 #include "engine/pipeline/pose_check.hpp"
 #include "engine/pipeline/require.hpp"
 
 namespace rigor::engine {
 namespace {
-
-template <class S>
-bool positiveDefinite(const typename S::Inertia& I) {
-    if constexpr (S::dim == 2) {
-        return I > 0 && std::isfinite(I);
-    } else {
-        if (!I.allFinite()) return false;
-        const typename S::Real size = I.cwiseAbs().maxCoeff();
-        if ((I - I.transpose()).cwiseAbs().maxCoeff() > typename S::Real(1e-4) * size) return false;
-        return Eigen::SelfAdjointEigenSolver<typename S::Mat>(I, Eigen::EigenvaluesOnly)
-                   .eigenvalues()
-                   .minCoeff() > 0;
-    }
-}
 
 template <class S>
 void checkBody(const BodyDef<S>& def) {
@@ -37,9 +22,11 @@ void checkBody(const BodyDef<S>& def) {
     require(kept(def.linearVelocityKept) && kept(def.angularVelocityKept), "body_damping",
             "velocity kept per second must be in (0, 1]");
     if (def.type != BodyType::Dynamic) return;
-    require(def.mass > 0 && std::isfinite(def.mass), "body_mass", "mass of a dynamic body must be positive");
-    require(positiveDefinite<S>(def.inertia), "body_inertia",
-            "inertia of a dynamic body must be symmetric and positive definite");
+    BodyMass<S> given{def.mass, def.centerOfMass, def.inertia};
+    require(def.mass >= 0 && std::isfinite(def.mass), "body_mass",
+            "mass of a dynamic body must be positive, or 0 for that of its shapes");
+    require(def.mass > 0 || !given.byHand(), "body_mass", "an inertia needs a mass");
+    if (given.byHand()) checkMass<S>({def.mass, def.centerOfMass, def.inertia});
 }
 
 }  // namespace
@@ -58,6 +45,7 @@ WorldBodies<S>::WorldBodies() {
     arrays_.invInertiaLocal.push_back(zeroInertia<S>());
     arrays_.invInertia.push_back(zeroInertia<S>());
     arrays_.id.emplace_back();
+    masses_.emplace_back();
 }
 
 template <class S>
@@ -71,10 +59,13 @@ BodyId WorldBodies<S>::add(const BodyDef<S>& def) {
     constants.gravityScale = def.gravityScale;
     constants.linearVelocityKept = def.linearVelocityKept;
     constants.angularVelocityKept = def.angularVelocityKept;
+    constants.continuousMode = def.continuous;
+    BodyMass<S> mass{def.mass, def.centerOfMass, def.inertia};
+    if constexpr (S::dim == 3) mass.inertia = Real(0.5) * (def.inertia + def.inertia.transpose());
     if (dynamic) {
-        constants.mass = def.mass;
-        constants.inertia = def.inertia;
-        if constexpr (S::dim == 3) constants.inertia = Real(0.5) * (def.inertia + def.inertia.transpose());
+        const MassProperties<S> properties = mass.properties();
+        constants.mass = properties.mass;
+        constants.inertia = properties.inertia;
     }
     const Pose<S> pose{def.pose.p, normalizedRot(def.pose.q)};
     const BodyId id = ids_.add(static_cast<std::uint32_t>(arrays_.size()));
@@ -86,10 +77,11 @@ BodyId WorldBodies<S>::add(const BodyDef<S>& def) {
     arrays_.stillTime.push_back(0);
     arrays_.islands.push_back(IslandSize::Usual);
     arrays_.constants.push_back(constants);
-    arrays_.invMass.push_back(dynamic ? Real(1) / def.mass : Real(0));
+    arrays_.invMass.push_back(dynamic ? Real(1) / constants.mass : Real(0));
     arrays_.invInertiaLocal.push_back(dynamic ? inverseInertia<S>(constants.inertia) : zeroInertia<S>());
     arrays_.invInertia.push_back(zeroInertia<S>());
     arrays_.id.push_back(id);
+    masses_.push_back(mass);
     return id;
 }
 
@@ -112,6 +104,7 @@ typename WorldBodies<S>::Removed WorldBodies<S>::remove(BodyId body) {
     fill(arrays_.invInertiaLocal);
     fill(arrays_.invInertia);
     fill(arrays_.id);
+    fill(masses_);
     // They may be fewer than the bodies.
     Midpoints<S>& midpoints = arrays_.midpoints;
     if (!midpoints.pose.empty()) {
@@ -133,6 +126,43 @@ Pose<S> WorldBodies<S>::pose(BodyId body) const {
     const Pose<S>& X = arrays_.pose[i];
     if (arrays_.constants[i].centerOfMass.isZero(0)) return X;
     return {X.p - rotate(X.q, arrays_.constants[i].centerOfMass), X.q};
+}
+
+template <class S>
+typename S::Vec WorldBodies<S>::applyMass(std::uint32_t body) {
+    using Vec = typename S::Vec;
+    BodyConstants<S>& constants = arrays_.constants[body];
+    if (constants.type != BodyType::Dynamic) return Vec::Zero();
+    const MassProperties<S> properties = masses_[body].properties();
+    const Vec way = properties.center - constants.centerOfMass;
+    constants.mass = properties.mass;
+    constants.inertia = properties.inertia;
+    constants.centerOfMass = properties.center;
+    arrays_.invInertiaLocal[body] = inverseInertia<S>(constants.inertia);
+    if (!arrays_.asleep[body]) arrays_.invMass[body] = Real(1) / constants.mass;
+    arrays_.leaveMidpoint(body);
+    if (way.isZero(0)) return way;
+    Pose<S>& X = arrays_.pose[body];
+    Velocity<S>& velocity = arrays_.velocity[body];
+    const Vec moved = rotate(X.q, way);
+    X.p += moved;
+    velocity.v += cross(velocity.w, moved);
+    return way;
+}
+
+template <class S>
+void WorldBodies<S>::setType(std::uint32_t body, BodyType type) {
+    BodyConstants<S>& constants = arrays_.constants[body];
+    constants.type = type;
+    constants.mass = 0;
+    constants.inertia = zeroInertia<S>();
+    arrays_.asleep[body] = 0;
+    arrays_.stillTime[body] = 0;
+    arrays_.islands[body] = IslandSize::Usual;
+    arrays_.invMass[body] = 0;
+    arrays_.invInertiaLocal[body] = arrays_.invInertia[body] = zeroInertia<S>();
+    if (type == BodyType::Static) arrays_.velocity[body] = {};
+    arrays_.leaveMidpoint(body);
 }
 
 template <class S>

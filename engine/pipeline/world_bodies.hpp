@@ -7,7 +7,10 @@
 // arrays().id[i] back to i.
 #pragma once
 
+#include <vector>
+
 #include "engine/core/ids.hpp"
+#include "engine/pipeline/body_mass.hpp"
 #include "engine/state/body_arrays.hpp"
 #include "engine/state/world_def.hpp"
 
@@ -40,12 +43,19 @@ class WorldBodies {
     Pose<S> pose(BodyId body) const;  ///< pose of the body frame
     const Velocity<S>& velocity(BodyId body) const { return arrays_.velocity[ids_.dense(body)]; }
     const BodyConstants<S>& constants(BodyId body) const { return arrays_.constants[ids_.dense(body)]; }
+    BodyMass<S>& mass(std::uint32_t body) { return masses_[body]; }
+    /// Gives a body the mass properties of mass(), if it is dynamic; the motion of its points stays. Returns the way of
+    /// its centre of mass, body axes [m]: places that refer to the centre have to follow (WorldParts::updateMass).
+    typename S::Vec applyMass(std::uint32_t body);
+    /// Static bodies lose their velocity.
+    void setType(std::uint32_t body, BodyType type);
     /// Changes linear and angular momentum at once [N s], [N m s].
     void applyImpulse(std::uint32_t body, const typename S::Vec& impulse,
                       const typename S::Ang& angularImpulse);
 
   private:
     BodyArrays<S> arrays_;
+    std::vector<BodyMass<S>> masses_;
     IdTable<BodyTag> ids_;
 };
 

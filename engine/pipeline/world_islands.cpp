@@ -15,7 +15,8 @@ void WorldIslands<S>::find(const Links& links) const {
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
         if (dynamic(a) && dynamic(b)) islands_.join(a, b);
     };
-    for (const Contact<S>& contact : links.contacts) join(contact.bodyA, contact.bodyB);
+    for (const Contact<S>& contact : links.contacts)
+        if (!contact.vetoed) join(contact.bodyA, contact.bodyB);
     for (const auto& record : links.joints.records()) join(record.joint.a, record.joint.b);
     islands_.finish(marks_, bodies.id);
 }

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/pipeline/world_parts.hpp"
 
+#include "engine/ccd/moving_shape.hpp"
+#include "engine/ccd/traits.hpp"
 #include "engine/state/sleep.hpp"
 
 namespace rigor::engine {
@@ -12,18 +14,96 @@ WorldParts<S>::WorldParts(const WorldDef<S>& definition)
     contacts.materials().setCombineRules(algorithms.combineFriction, algorithms.combineRestitution);
 }
 
-/// The last body takes the place of the removed one; likewise its shapes and joints.
+/// The last body takes the place of the removed one; likewise its joints.
 template <class S>
 void WorldParts<S>::removeBody(BodyId body) {
-    wakeNeighboursOf(bodies.dense(body));
+    const std::uint32_t dense = bodies.dense(body);
+    wakeNeighboursOf(dense);
+    std::vector<std::uint8_t> without;
+    for (const ShapeRecord<S>& shape : contacts.shapes().records()) without.push_back(shape.body == dense);
+    contacts.removeShapes(bodies.arrays(), without);
     const auto [gone, last] = bodies.remove(body);
-    contacts.shapes().bodyRemoved(gone, last);
+    if (gone != last) contacts.bodyMoved(last, gone);
     joints.bodyRemoved(gone, last);
     forces.bodyRemoved(gone, last);
     jointsChanged();
-    contacts.structureChanged(true);
     algorithms.broadPhase->reset();
     islands.changed();
+}
+
+template <class S>
+void WorldParts<S>::removeShape(ShapeId shape) {
+    const std::uint32_t dense = contacts.shapes().ids().dense(shape);
+    const std::uint32_t body = contacts.shapes()[dense].body;
+    wakeNeighboursOf(body);
+    std::vector<std::uint8_t> without(contacts.shapes().size(), 0);
+    without[dense] = 1;
+    contacts.removeShapes(bodies.arrays(), without);
+    sumShapeMasses(body);
+    algorithms.broadPhase->reset();
+    islands.changed();
+}
+
+template <class S>
+void WorldParts<S>::addShapeMass(std::uint32_t body) {
+    BodyMass<S>& mass = bodies.mass(body);
+    ++mass.shapeCount;
+    const BodyConstants<S>& constants = bodies.arrays().constants[body];
+    if (mass.byHand() || constants.type != BodyType::Dynamic) return;
+    addMass<S>(massOfShape<S>(contacts.shapes().records().back(), constants.centerOfMass), mass.shapes);
+    updateMass(body);
+}
+
+template <class S>
+void WorldParts<S>::sumShapeMasses(std::uint32_t body) {
+    BodyMass<S>& mass = bodies.mass(body);
+    const BodyConstants<S>& constants = bodies.arrays().constants[body];
+    mass.shapes = BodyMass<S>{}.shapes;
+    mass.shapeCount = 0;
+    for (const ShapeRecord<S>& shape : contacts.shapes().records()) {
+        if (shape.body != body) continue;
+        ++mass.shapeCount;
+        if (constants.type == BodyType::Dynamic && !mass.byHand())
+            addMass<S>(massOfShape<S>(shape, constants.centerOfMass), mass.shapes);
+    }
+    updateMass(body);
+}
+
+/// Shapes of a body just built are the last ones: the search ends there.
+template <class S>
+void WorldParts<S>::updateMass(std::uint32_t body) {
+    const typename S::Vec way = bodies.applyMass(body);
+    if (way.isZero(0)) return;
+    std::vector<ShapeRecord<S>>& shapes = contacts.shapes().records();
+    std::uint32_t left = bodies.mass(body).shapeCount;
+    for (std::size_t i = shapes.size(); i-- > 0 && left > 0;) {
+        ShapeRecord<S>& shape = shapes[i];
+        if (shape.body != body) continue;
+        --left;
+        shape.local.p -= way;
+        shape.boundingRadius = coreBoundingRadius<S>(shape.shape, shape.local);
+    }
+    joints.centerMoved(body, way);
+    forces.centerMoved(body, way);
+    contacts.candidates().forgetCached(contacts.shapes(), body);
+}
+
+template <class S>
+void WorldParts<S>::setContinuous(std::uint32_t body, ContinuousMode mode) {
+    BodyConstants<S>& constants = bodies.arrays().constants[body];
+    const bool always = continuousCollisionTraits(def.continuousCollision).acts;
+    constants.continuousMode = mode;
+    constants.continuous = mode == ContinuousMode::On || (mode == ContinuousMode::World && always);
+    if (!constants.continuous || algorithms.continuous) return;
+    WorldDef<S> with = def;
+    with.continuousCollision = "conservative_advancement";
+    algorithms = StepAlgorithms<S>(with);
+}
+
+template <class S>
+void WorldParts<S>::wakeAll() {
+    for (std::uint32_t i = 0; algorithms.sleeping.wake && i < bodies.size(); ++i)
+        wakeBody(bodies.arrays(), i);
 }
 
 template <class S>
@@ -57,9 +137,7 @@ void WorldParts<S>::wakeNeighboursOf(std::uint32_t body) {
 
 template <class S>
 void WorldParts<S>::wakeReachOf(std::uint32_t body) {
-    BodyArrays<S>& all = bodies.arrays();
-    if (algorithms.sleeping.wake && all.constants[body].type != BodyType::Dynamic)
-        for (std::uint32_t i = 0; i < all.size(); ++i) wakeBody(all, i);
+    if (bodies.arrays().constants[body].type != BodyType::Dynamic) wakeAll();
     wakeIslandOf(body);
 }
 

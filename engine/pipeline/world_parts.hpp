@@ -49,6 +49,18 @@ struct WorldParts {
     }
 
     void removeBody(BodyId body);
+    void removeShape(ShapeId shape);
+    /// Adds a shape's mass to its body, which was added last.
+    void addShapeMass(std::uint32_t body);
+    /// Sums the masses of a body's shapes anew.
+    void sumShapeMasses(std::uint32_t body);
+    /// Gives a body the mass properties that it should have; shapes, joints and forces follow its centre of mass.
+    void updateMass(std::uint32_t body);
+    /// Sets whether continuous collision looks at a body. A body that needs it where the world has none brings
+    /// conservative_advancement for those that need it.
+    void setContinuous(std::uint32_t body, ContinuousMode mode);
+    /// Wakes every body, where bodies sleep.
+    void wakeAll();
     void removeJoint(JointId joint);
     void jointsChanged() { contacts.setExcluded(joints.exclusions()); }
 
@@ -70,6 +82,7 @@ struct WorldParts {
     ForceSet<S> forces;
     WorldIslands<S> islands;
     WorldClock<S> clock;
+    bool gravityChanged = false;  ///< def.gravity is not what the world was built with
 
   private:
     typename WorldIslands<S>::Links links() const { return {bodies.arrays(), contacts.list(), joints}; }

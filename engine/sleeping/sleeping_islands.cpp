@@ -39,6 +39,7 @@ void markPushed(const SleepStep<S>& step) {
                (velocity.v.squaredNorm() > 0 || dotAng(velocity.w, velocity.w) > 0);
     };
     for (const Contact<S>& contact : step.contacts) {
+        if (contact.vetoed) continue;
         const std::uint32_t a = step.islands.islandOf(contact.bodyA),
                             b = step.islands.islandOf(contact.bodyB);
         if (b != kNullIndex && moving(contact.bodyA)) step.marked[b] = 1;

@@ -18,6 +18,13 @@ namespace rigor::engine {
 
 enum class BodyType : std::uint8_t { Static, Kinematic, Dynamic };
 
+/// Whether a body takes part in continuous collision (ccd/).
+enum class ContinuousMode : std::uint8_t {
+    World,  ///< as WorldDef::continuousCollision says
+    On,     ///< also in a world without: then by conservative_advancement
+    Off,    ///< only with bodies that do
+};
+
 /// Bodies for which a range of them is worth sharing among threads: some microseconds of work. The same
 /// wherever bodies are shared, so that a thread gets the same ones again.
 inline constexpr std::size_t kBodyGrain = 64;
@@ -53,12 +60,14 @@ struct Wrench {
     typename S::Ang torque = zeroAng<S>();
 };
 
-/// Properties that are constant while a body exists.
+/// Properties that no step changes.
 template <class S>
 struct BodyConstants {
     BodyType type = BodyType::Static;
     bool collides = true;
-    typename S::Real mass = 0;                       ///< [kg]; 0 unless dynamic
+    ContinuousMode continuousMode = ContinuousMode::World;
+    bool continuous = false;    ///< continuous collision looks at the motion of this body
+    typename S::Real mass = 0;  ///< [kg]; 0 unless dynamic
     typename S::Inertia inertia = zeroInertia<S>();  ///< inertia about the centre of mass, body axes [kg m^2]
     typename S::Vec centerOfMass = S::Vec::Zero();   ///< centre of mass in the body frame [m]
     typename S::Real gravityScale = 1;               ///< factor on the world's gravity

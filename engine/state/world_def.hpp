@@ -10,6 +10,8 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "engine/core/ids.hpp"
 #include "engine/math/rotation.hpp"
@@ -36,7 +38,18 @@ struct WorldDef {
 #include "engine/state/settings.def"
     /// Narrow phase used in place of `narrowPhase` if set; shared by copies of the world.
     std::shared_ptr<const NarrowPhase<S>> customNarrowPhase;
+
+    /// Settings by name, as state/presets.def lists them: "default", "fast", ... Gravity is zero. Throws EngineError
+    /// "preset" for another name.
+    static WorldDef preset(std::string_view name);
 };
+
+/// Name of a preset, and what it is for.
+struct PresetInfo {
+    std::string name, summary;
+};
+/// All of them, sorted by name.
+const std::vector<PresetInfo>& presets();
 
 template <class S>
 struct BodyDef {
@@ -46,33 +59,40 @@ struct BodyDef {
     typename S::Vec velocity = S::Vec::Zero();       ///< velocity of the centre of mass in the world frame
                                                      ///< [m/s]
     typename S::Ang angularVelocity = zeroAng<S>();  ///< world frame [rad/s]
-    Real mass = 1;                                   ///< [kg], > 0; read for dynamic bodies only
-    typename S::Vec centerOfMass = S::Vec::Zero();   ///< centre of mass in the body frame [m]
+    /// Mass properties of a dynamic body; others have none. By default they are those of its shapes, by their
+    /// densities, and change with these. Until a shape has a mass they are 1 kg, a unit inertia and the centre of
+    /// mass given here.
+    ///     mass and inertia given    all three are as given
+    ///     mass given alone          those of the shapes, scaled to this mass
+    Real mass = 0;                                  ///< [kg], > 0; 0: that of the shapes
+    typename S::Vec centerOfMass = S::Vec::Zero();  ///< centre of mass in the body frame [m]
     typename S::Inertia inertia =
-        identityInertia();         ///< inertia about the centre of mass, body axes; positive definite
+        zeroInertia<S>();          ///< about the centre of mass, body axes [kg m^2]; positive
+                                   ///< definite; zero: that of the shapes
     Real linearVelocityKept = 1;   ///< fraction kept per second, in (0, 1]
     Real angularVelocityKept = 1;  ///< fraction kept per second, in (0, 1]
     Real gravityScale = 1;         ///< factor on the world's gravity
-    bool collides = true;          ///< false: no contacts for any of its shapes
-
-    static typename S::Inertia identityInertia() {
-        if constexpr (S::dim == 2)
-            return Real(1);
-        else
-            return S::Inertia::Identity();
-    }
+    bool collides = true;          ///< false: no contacts for any of its shapes, and no sensor finds them
+    ContinuousMode continuous = ContinuousMode::World;  ///< On: a bullet
 };
+
+/// The materials that each world has.
+inline constexpr std::uint32_t kFrictionless = 0;   ///< friction 0, restitution 0
+inline constexpr std::uint32_t kUsualMaterial = 1;  ///< friction 0.6, restitution 0
 
 template <class S>
 struct ShapeDef {
     Shape<S> shape;
-    Pose<S> pose;                ///< shape frame in the body frame
-    std::uint32_t material = 0;  ///< index from World::addMaterial; 0 is frictionless and inelastic
+    Pose<S> pose;                             ///< shape frame in the body frame
+    std::uint32_t material = kUsualMaterial;  ///< index from World::addMaterial, or one of the above
     /// Velocity at which the surface moves over the body, as of a conveyor belt or a turntable: that of the point
     /// at the origin of the body frame [m/s], and the angular velocity [rad/s], in the axes of the body frame. A
     /// point x of the surface moves with v + w x x. Friction sees it, the normal does not.
     Velocity<S> surfaceVelocity = {};
-    ShapeFilter filter = {};     ///< what it collides with; by default, all
+    ShapeFilter filter = {};          ///< what it collides with; by default, all
+    typename S::Real density = 1000;  ///< [kg/m^3] (2D: [kg/m^2]), >= 0: mass of its body (BodyDef::mass)
+    /// A sensor finds the shapes that overlap it (World::sensorOverlaps) and touches none; it has no mass.
+    bool sensor = false;
 };
 
 /// Coefficients of a pair of touching surfaces.

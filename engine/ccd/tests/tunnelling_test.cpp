@@ -127,6 +127,7 @@ TYPED_TEST(Tunnelling, ProjectilesOfEveryShapeAndTurningOnes) {
                 const auto material = world.addMaterial(R(0.3), R(0.4));
                 addWall<S>(world, material);
                 BodyDef<S> body;
+                body.mass = 1;
                 body.inertia = isotropic<S>(0.002);
                 body.pose.p = at<S>(-3.3, 0.1);
                 body.velocity = at<S>(500, -40);
@@ -180,6 +181,7 @@ TYPED_TEST(Tunnelling, AThinRodThatTurnsFastDoesNotPassThroughAPost) {
         // A rod 2 m long and 4 mm thick turns about its middle, 0.9 m from which stands a post of radius 1
         // cm.
         BodyDef<S> rod;
+        rod.mass = 1;
         rod.inertia = isotropic<S>(1.0 / 3);
         rod.angularVelocity = spin<S>(40);  // 0.67 rad a step
         const BodyId id = world.addBody(rod);

@@ -234,7 +234,7 @@ TYPED_TEST(Reuse, MovingFurtherQueriesAgain) {
     pair.find();
     EXPECT_EQ(pair.set.queries(), 1u);
     pair.bodies.pose[0].p[0] += R(1.1 * kReuse);  // the other one, as a fault may move it
-    pair.set.structureChanged(false);
+    pair.set.structureChanged();
     pair.find();
     EXPECT_EQ(pair.set.queries(), 1u);
     pair.search.speculativeDistance *= 2;

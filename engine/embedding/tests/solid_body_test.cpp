@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/error.hpp"
+
 #include <stdexcept>
 
 #include "engine/pipeline/tests/scene.hpp"
@@ -46,7 +48,7 @@ TYPED_TEST(SolidBody, NeedsVolumeWhereItMoves) {
     using R = typename S::Real;
     World<S> world{WorldDef<S>{}};
     const Shape<S> ground = HalfSpace<S>{S::Vec::Unit(1), R(0)};
-    EXPECT_THROW(addSolid<S>(world, {{ground}}), std::invalid_argument);
+    EXPECT_THROW(addSolid<S>(world, {{ground}}), EngineError);
     EXPECT_EQ(world.bodyCount(), 0u);
     BodyDef<S> fixed;
     fixed.type = BodyType::Static;

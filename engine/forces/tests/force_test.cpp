@@ -62,6 +62,7 @@ TYPED_TEST(Forces, SpringAgainstAHandComputation) {
     World<S> world{WorldDef<S>{}};
     const BodyId a = addFree<S>(world, 0, 0);
     BodyDef<S> def;
+    def.mass = 1;
     def.inertia = isotropic<S>(0.5);
     def.centerOfMass = at<S>(0, 0.1);
     def.pose.p = at<S>(3, 0.75);

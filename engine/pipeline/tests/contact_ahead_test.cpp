@@ -47,6 +47,7 @@ double deepest(const WorldDef<S>& def, const Shape<S>& ground, const Shape<S>& s
     still.type = BodyType::Static;
     attach<S>(world, world.addBody(still), ground, material);
     BodyDef<S> body;
+    body.mass = 1;
     body.inertia = isotropic<S>(0.1);
     body.pose.p = at<S>(0.1, height);
     body.velocity = at<S>(0, -kFall);

@@ -36,6 +36,7 @@ template <class S>
 BodyId addFiltered(World<S>& world, double x, double y, const ShapeFilter& filter, double vy = 0) {
     using R = typename S::Real;
     BodyDef<S> def;
+    def.mass = 1;
     def.inertia = isotropic<S>(0.1);
     def.pose.p = at<S>(x, y);
     def.velocity = at<S>(0, vy);

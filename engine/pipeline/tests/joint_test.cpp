@@ -20,6 +20,7 @@ struct Pendulum {
     explicit Pendulum(WorldDef<S> def, JointType type = JointType::Hinge) : world(def) {
         BodyDef<S> body;
         body.pose.p = at<S>(0.5, 0);
+        body.mass = 1;
         body.inertia = isotropic<S>(1.0 / 12);
         rod = world.addBody(body);
         JointDef<S> j;
@@ -170,6 +171,7 @@ TEST(Hinge3d, AxisDoesNotDriftUnderATiltedSpin) {
     using S = Space3d;
     World<S> world(earth<S>());
     BodyDef<S> body;
+    body.mass = 1;
     body.inertia = Eigen::Vector3d(0.3, 0.2, 0.1).asDiagonal();
     body.pose.p = at<S>(0.5, 0);
     body.angularVelocity = {0, 0, 4};
@@ -195,6 +197,7 @@ TEST(Chain3d, FiveLinksKeepTheirEnergyAndTheirJoints) {
     std::vector<BodyId> links;
     for (int i = 0; i < 5; ++i) {
         BodyDef<S> body;
+        body.mass = 1;
         body.inertia = Eigen::Vector3d(0.002, 0.022, 0.022).asDiagonal();
         body.pose.p = at<S>(0.25 + 0.5 * i, 0);
         const BodyId id = world.addBody(body);

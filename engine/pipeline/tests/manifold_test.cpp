@@ -26,6 +26,7 @@ struct Stack {
             BodyDef<S> body;
             body.pose.p = at<S>(0.01 * i, 0.5 + i);
             body.angularVelocity = spin<S>(spin0);
+            body.mass = 1;
             body.inertia = isotropic<S>(1.0 / 6);
             boxes.push_back(world.addBody(body));
             attach<S>(world, boxes.back(), Box<S>{S::Vec::Constant(R(0.5))}, wood);

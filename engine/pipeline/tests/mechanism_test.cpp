@@ -169,6 +169,7 @@ TYPED_TEST(Mechanisms, ChainOfTwentyLinksHoldsForAMinute) {
     std::vector<BodyId> links;
     for (int i = 0; i < 20; ++i) {
         BodyDef<S> body;
+        body.mass = 1;
         body.inertia = isotropic<S>(0.25 / 12);
         body.pose.p = at<S>(0.25 + 0.5 * i, 0);
         const BodyId id = world.addBody(body);

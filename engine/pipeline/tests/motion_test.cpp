@@ -57,6 +57,7 @@ TYPED_TEST(Motion, DampingIsAPowerOfTheFactorPerSecondAndExactWithAForce) {
     for (const double h : {0.5, 0.125}) {
         World<S> world{WorldDef<S>{}};
         BodyDef<S> def;
+        def.mass = 1;
         def.inertia = isotropic<S>(1);
         def.velocity = at<S>(3, 0);
         def.angularVelocity = spin<S>(2);
@@ -112,6 +113,7 @@ TYPED_TEST(Motion, GravityScaleAndOffsetCentreOfMass) {
     using R = typename S::Real;
     World<S> world(earth<S>());
     BodyDef<S> def;
+    def.mass = 1;
     def.inertia = isotropic<S>(1);
     def.centerOfMass = at<S>(0.5, 0);
     def.angularVelocity = spin<S>(2);
@@ -148,6 +150,7 @@ double topError(const char* rotation, double h, double* energyDrift, double* mom
     def.rotation = rotation;
     World<S> world(def);
     BodyDef<S> body;
+    body.mass = 1;
     body.inertia = Eigen::Vector3d(1, 2, 3).asDiagonal();
     body.angularVelocity = Eigen::Vector3d(3, 1, -2);
     const BodyId id = world.addBody(body);
@@ -189,6 +192,7 @@ TEST(Top, QuaternionStaysUnit) {
         def.rotation = rotation;
         World<Space3f> world(def);
         BodyDef<Space3f> body;
+        body.mass = 1;
         body.inertia = Eigen::Vector3f(1.0f, 1.1f, 1.2f).asDiagonal();
         body.angularVelocity = Eigen::Vector3f(8, 3, -5);
         const BodyId id = world.addBody(body);

@@ -145,6 +145,7 @@ double obliqueWorld(const Oblique& o, const char* law, double out[3]) {
     // A small sphere at the end of a rod: the contact is below its centre, in the body frame's origin.
     const double radius = 0.05;
     BodyDef<S> body;
+    body.mass = 1;
     body.inertia = isotropic<S>(o.I);
     body.centerOfMass = at<S>(-o.rx, -o.ry - radius);
     body.pose.p = at<S>(0, radius - 1e-6);

@@ -215,6 +215,7 @@ TYPED_TEST(Solvers, PendulumKeepsItsJointAndItsEnergy) {
         World<S> world(earthWith<S>(solver.name));
         BodyDef<S> body;
         body.pose.p = at<S>(0.5, 0);
+        body.mass = 1;
         body.inertia = isotropic<S>(1.0 / 12);
         const BodyId rod = world.addBody(body);
         JointDef<S> j;

@@ -208,6 +208,7 @@ void expectHeldWithoutCreeping() {
     addGround<S>(world, wood);
     BodyDef<S> def;
     const double half = 0.25, r2 = 2 * half * half;
+    def.mass = 1;
     def.inertia = isotropic<S>(20 * r2);  // inertia of a sphere of 1 kg
     def.pose.p = at<S>(0, half);
     const BodyId body = world.addBody(def);
@@ -234,6 +235,7 @@ void expectSpinIsNotReversed() {
     const auto wood = world.addMaterial(R(0.3), 0);
     addGround<S>(world, wood);
     BodyDef<S> def;
+    def.mass = 1;
     def.inertia = isotropic<S>(0.1);
     def.pose.p = at<S>(0, 0.1);
     const BodyId plate = world.addBody(def);
@@ -261,6 +263,7 @@ void expectSlidesStraight() {
     const auto wood = world.addMaterial(R(0.3), 0);
     addGround<S>(world, wood);
     BodyDef<S> def;
+    def.mass = 1;
     def.inertia = isotropic<S>(0.2);
     def.pose.p = at<S>(0, 0.1);
     const BodyId body = world.addBody(def);
@@ -291,6 +294,7 @@ void expectImpulseTurnsByTheWorldsInertia() {
     addGround<S>(world, ice);
     BodyDef<S> def;
     const Vec inertia(R(0.05), R(2), R(2));
+    def.mass = 1;
     def.inertia = inertia.asDiagonal();
     def.pose.q = expMap(Vec(R(0.3), R(1), R(0.4)));
     def.velocity = at<S>(0, -2);

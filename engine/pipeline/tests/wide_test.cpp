@@ -129,6 +129,7 @@ void expectTorqueTurnsAsWithForces() {
         def.substeps = 8;
         World<S> world(def);
         BodyDef<S> body;
+        body.mass = 1;
         body.inertia = typename S::Vec(R(1), R(2), R(4)).asDiagonal();
         const BodyId tumbler = world.addBody(body), other = world.addBody(body);
         if (force) world.addForce(ConstantForce<S>{other, S::Vec::UnitX()});
@@ -155,6 +156,7 @@ void expectSubStepsOfJointsAreSteps() {
         def.substeps = substeps;
         World<S> world(def);
         BodyDef<S> rod;
+        rod.mass = 1;
         rod.inertia = typename S::Vec(R(0.05), R(1), R(1.2)).asDiagonal();
         rod.angularVelocity = {3, 5, 2};
         JointDef<S> joint;

@@ -118,9 +118,16 @@ TYPED_TEST(Worlds, BadInputIsRefusedById) {
         change(def);
         return refusal([&] { world.addBody(def); });
     };
-    EXPECT_EQ(body([](auto& d) { d.mass = 0; }), "body_mass");
+    EXPECT_EQ(body([](auto& d) { d.mass = -1; }), "body_mass");
+    EXPECT_EQ(body([](auto& d) { d.inertia = isotropic<S>(1); }), "body_mass") << "an inertia without a mass";
     EXPECT_EQ(body([&](auto& d) { d.mass = nan; }), "body_mass");
-    EXPECT_EQ(body([](auto& d) { d.inertia = isotropic<S>(-1); }), "body_inertia");
+    const auto withMass = [&](double inertia) {
+        return body([=](auto& d) {
+            d.mass = 1;
+            d.inertia = isotropic<S>(inertia);
+        });
+    };
+    EXPECT_EQ(withMass(-1), "body_inertia");
     EXPECT_EQ(body([&](auto& d) { d.pose.p[1] = nan; }), "body_pose");
     EXPECT_EQ(body([&](auto& d) { d.velocity[0] = nan; }), "body_velocity");
     EXPECT_EQ(body([](auto& d) { d.linearVelocityKept = 0; }), "body_damping");

@@ -230,6 +230,7 @@ TYPED_TEST(Sleeping, JointsMakeIslandsAndSleepToo) {
     for (int i = 0; i < 4; ++i) {
         BodyDef<S> body;
         body.pose.p = at<S>(0, -0.5 - i);
+        body.mass = 1;
         body.inertia = isotropic<S>(0.1);
         chain.push_back(world.addBody(body));
         JointDef<S> joint;
@@ -283,6 +284,7 @@ TYPED_TEST(Sleeping, OnlyRestWithoutInterruptionCounts) {
         def.timeToSleep = R(0.5);
         World<S> world(def);
         BodyDef<S> body;
+        body.mass = 1;
         body.inertia = isotropic<S>(1);
         body.pose.p = at<S>(1 + amplitude, 0);
         const BodyId id = world.addBody(body);
@@ -316,6 +318,7 @@ TYPED_TEST(Sleeping, WhatOnlySpinsOrOnlyDriftsIsAwake) {
             def.sleepAngularVelocity = R(0.3);
             World<S> world(def);
             BodyDef<S> body;
+            body.mass = 1;
             body.inertia = isotropic<S>(1);
             body.velocity = at<S>(speed, 0);
             body.angularVelocity = spin<S>(-turn);

@@ -83,6 +83,7 @@ struct Top {
 Top makeTop(const WorldDef<S>& def, double size = 1) {
     World<S> world(def);
     BodyDef<S> body;
+    body.mass = 1;
     body.inertia = kInertia.asDiagonal();
     body.angularVelocity = size * kSpin;
     const BodyId id = world.addBody(body);

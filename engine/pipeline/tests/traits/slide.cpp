@@ -72,6 +72,7 @@ double errorWhereSlipTurns(const std::string& solver, const std::string& frictio
     const S::Vec inertia(0.5, 0.1, 0.02);
     World<S> world = onFloor(solver, friction, mu);
     BodyDef<S> def;
+    def.mass = 1;
     def.inertia = inertia.asDiagonal();
     def.pose.p = at<S>(0, radius);
     const BodyId ball = world.addBody(def);
@@ -132,6 +133,7 @@ bool rubsInPatches(const std::string& solver) {
     for (const double direction : {0.0, 0.5, 1.0, 1.5}) {
         World<S> world = onFloor(solver, "cone", kMu);
         BodyDef<S> def;
+        def.mass = 1;
         def.inertia = S::Vec(0.1, 0.1, 0.1).asDiagonal();
         def.pose.p = at<S>(0, 0.01);
         const BodyId plate = world.addBody(def);
