@@ -3,9 +3,11 @@
 #include "engine/queries/world_queries.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/core/error.hpp"
 #include "engine/narrowphase/distance.hpp"
+#include "engine/narrowphase/shape_overlap.hpp"
 #include "engine/narrowphase/surface_contact.hpp"
 #include "engine/queries/shape_cast.hpp"
 
@@ -24,6 +26,15 @@ void requireConvex(const Shape<S>& shape, const Pose<S>& X) {
     if (!X.p.allFinite()) throw EngineError("query_shape", "the pose must be finite");
 }
 
+template <class R>
+bool isSame(const Rot2<R>& p, const Rot2<R>& q) {
+    return p.c == q.c && p.s == q.s;
+}
+template <class R>
+bool isSame(const Eigen::Quaternion<R>& p, const Eigen::Quaternion<R>& q) {
+    return p.coeffs() == q.coeffs();
+}
+
 /// Distance between two boxes; 0 where they overlap.
 template <class S>
 typename S::Real gap(const Aabb<S>& a, const Aabb<S>& b) {
@@ -37,46 +48,96 @@ Aabb<S> swept(Aabb<S> box, const typename S::Vec& translation) {
     return box;
 }
 
-/// True if the lowest point of the shape is in the solid under a height field.
-template <class S>
-bool underField(const Shape<S>& field, const Pose<S>& Xf, const Shape<S>& shape, const Pose<S>& X) {
-    if constexpr (S::dim == 3) {
-        const auto* f = std::get_if<HeightField<S>>(&field);
-        if (!f) return false;
-        const Pose<S> local{toLocal<S>(Xf, X.p), compose(inverse(Xf.q), X.q)};
-        using R = typename S::Real;
-        using V = typename S::Vec;
-        const V low = toWorld<S>(local, support<S>(shape, rotateInverse<R>(local.q, V(-V::UnitY()))));
-        const auto& d = *f->data;
-        if (low.y() < d.lowest - d.thickness || low.y() > d.highest) return false;
-        RayHit<S> hit;
-        return castRay<S>(field, Pose<S>{}, low, V(0, d.highest - low.y() + d.thickness, 0), hit);
-    } else {
-        (void)field;
-        (void)Xf;
-        (void)shape;
-        (void)X;
-        return false;
-    }
-}
-
 }  // namespace
 
 template <class S>
-WorldQueries<S>::WorldQueries(const World<S>& world) {
-    std::vector<Aabb<S>> bounded;
-    for (const ShapeRecord<S>& record : world.shapes()) {
-        const auto i = static_cast<std::uint32_t>(entries_.size());
-        entries_.push_back({&record, world.shapePose(record), world.bodyOf(record)});
-        boxes_.push_back(boundingBox<S>(record.shape, entries_.back().X));
-        if (BroadPhase<S>::unbounded(boxes_.back())) {
-            outside_.push_back(i);
-        } else {
-            inTree_.push_back(i);
-            bounded.push_back(boxes_.back());
+WorldQueries<S>::WorldQueries(const World<S>& world) : world_(&world) {
+    update();
+}
+
+template <class S>
+void WorldQueries<S>::update() {
+    const std::span<const ShapeRecord<S>> records = world_->shapes();
+    matchShapes();
+    outside_.clear();
+    loose_ = 0;
+    for (std::uint32_t i = 0; i < records.size(); ++i) {
+        const Pose<S> X = world_->shapePose(records[i]);
+        Entry& entry = entries_[i];
+        const bool moved = entry.record == nullptr || X.p != entry.X.p || !isSame(X.q, entry.X.q);
+        entry = {&records[i], X, world_->bodyOf(records[i])};
+        if (records[i].sensor) continue;
+        if (moved) boxes_[i] = boundingBox<S>(records[i].shape, X);
+        if (!isLoose(i)) {
+            leafBoxes_[leafOf_[i]] = boxes_[i];
+            continue;
         }
+        outside_.push_back(i);
+        loose_ += !BroadPhase<S>::unbounded(boxes_[i]);
     }
-    tree_.build(bounded);
+    const Real size = tree_.refit(leafBoxes_);
+    constexpr std::uint32_t kFewest = 16;  // shapes whose search one by one costs no more than the tree's
+    const auto many = std::max(kFewest, static_cast<std::uint32_t>(records.size() / 8));
+    // Twice the diagonals: about twice the nodes that a query visits.
+    if (gone_ + loose_ > many || (builds_ == 0 && loose_ > 0) || size > Real(2) * builtSize_) build();
+}
+
+/// Shapes keep their order when others are removed, and new ones come last.
+template <class S>
+void WorldQueries<S>::matchShapes() {
+    const std::span<const ShapeRecord<S>> records = world_->shapes();
+    bool same = records.size() == ids_.size();
+    for (std::size_t i = 0; same && i < ids_.size(); ++i) same = records[i].id == ids_[i];
+    if (same) return;
+    std::size_t kept = 0;
+    for (std::size_t old = 0; old < ids_.size(); ++old) {
+        if (kept < records.size() && records[kept].id == ids_[old]) {
+            entries_[kept] = entries_[old];
+            boxes_[kept] = boxes_[old];
+            leafOf_[kept] = leafOf_[old];
+            if (!isLoose(static_cast<std::uint32_t>(kept)))
+                entryOf_[leafOf_[kept]] = static_cast<std::uint32_t>(kept);
+            ++kept;
+            continue;
+        }
+        if (leafOf_[old] == kNullIndex) continue;
+        constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+        entryOf_[leafOf_[old]] = kNullIndex;
+        leafBoxes_[leafOf_[old]] = {Vec::Constant(kInfinity), Vec::Constant(-kInfinity)};
+        ++gone_;
+    }
+    entries_.resize(records.size());
+    ids_.resize(records.size());
+    boxes_.resize(records.size());
+    leafOf_.resize(records.size());
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        ids_[i] = records[i].id;
+        if (i < kept) continue;
+        entries_[i].record = nullptr;
+        leafOf_[i] = kNullIndex;
+    }
+}
+
+template <class S>
+void WorldQueries<S>::build() {
+    entryOf_.clear();
+    leafBoxes_.clear();
+    outside_.clear();
+    for (std::uint32_t i = 0; i < entries_.size(); ++i) {
+        leafOf_[i] = kNullIndex;
+        if (entries_[i].record->sensor) continue;
+        if (BroadPhase<S>::unbounded(boxes_[i])) {
+            outside_.push_back(i);
+            continue;
+        }
+        leafOf_[i] = static_cast<std::uint32_t>(entryOf_.size());
+        entryOf_.push_back(i);
+        leafBoxes_.push_back(boxes_[i]);
+    }
+    tree_.build(leafBoxes_);
+    builtSize_ = tree_.refit(leafBoxes_);
+    gone_ = loose_ = 0;
+    ++builds_;
 }
 
 /// use(i) for each entry whose box `enter` takes.
@@ -88,7 +149,9 @@ void WorldQueries<S>::visit(Enter enter, const Filter& filter, Visit use) const 
     };
     for (const std::uint32_t i : outside_)
         if (enter(boxes_[i])) test(i);
-    tree_.walk(enter, [&](std::uint32_t leaf) { test(inTree_[leaf]); });
+    tree_.walk(enter, [&](std::uint32_t leaf) {
+        if (entryOf_[leaf] != kNullIndex) test(entryOf_[leaf]);
+    });
 }
 
 template <class S>
@@ -182,20 +245,8 @@ std::vector<ShapeRef> WorldQueries<S>::overlapping(const Shape<S>& shape, const 
     visit([&](const Aabb<S>& box) { return own.overlaps(box); }, filter,
           [&](std::uint32_t i) {
               const Entry& entry = entries_[i];
-              if (!isComposite<S>(entry.record->shape)) {
-                  if (closestPoints<S>(shape, X, entry.record->shape, entry.X).distance <= 0)
-                      found.push_back({i, kNullIndex});
-                  return;
-              }
-              std::uint32_t piece = kNullIndex;
-              withSurface<S>(entry.record->shape, [&](const auto& data) {
-                  data.query(boxOnSurface<S>(entry.X, shape, X, Real(0)), [&](std::uint32_t k) {
-                      const Shape<S> part = data.piece(k);
-                      if (k < piece && closestPoints<S>(shape, X, part, entry.X).distance <= 0) piece = k;
-                  });
-              });
-              if (piece != kNullIndex || underField<S>(entry.record->shape, entry.X, shape, X))
-                  found.push_back({i, piece});
+              if (const auto piece = findOverlap<S>(shape, X, entry.record->shape, entry.X))
+                  found.push_back({i, *piece});
           });
     std::sort(found.begin(), found.end());
     std::vector<ShapeRef> refs;

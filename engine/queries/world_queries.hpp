@@ -7,9 +7,11 @@
 //   WorldQueries<Space3d> queries(world);
 //   if (const auto hit = queries.castRay({0, 5, 0}, {0, -10, 0})) use(hit->body, hit->point, hit->normal);
 //
-// Making one builds a tree over the boxes of all shapes where the bodies are now: O(n log n), once for any
-// number of queries; it is stale after the next step or change of the world. All bodies are searched, those
-// without contacts too; `filter` may leave some out. Ties go to the shape added first.
+// Making one builds a tree over the boxes of all shapes where the bodies are now, in O(n log^2 n). After a step or a
+// change of the world, update() brings it up to date in O(n): boxes that have moved are fitted into the same tree, new
+// shapes are kept beside it, and it is built anew only when the boxes have moved far apart or many shapes have come or
+// gone. The answers are those of a new one. All bodies are searched, those without contacts too, but no sensors;
+// `filter` may leave some out. Ties go to the shape added first.
 #pragma once
 
 #include <functional>
@@ -85,8 +87,12 @@ class WorldQueries {
     using Vec = typename S::Vec;
     using Filter = QueryFilter;
 
-    /// `world` must outlive this and not change meanwhile.
+    /// `world` must outlive this, and stay where it is; queries after it has changed need an update() before.
     explicit WorldQueries(const World<S>& world);
+    /// Follows the world to where its bodies and shapes are now.
+    void update();
+    /// How often the tree has been built, for those who count.
+    int builds() const { return builds_; }
 
     /// Nearest hit of x = origin + t translation, 0 <= t <= 1. Throws EngineError "query_ray" for numbers
     /// that are not finite and for a translation of zero.
@@ -112,7 +118,7 @@ class WorldQueries {
 
   private:
     struct Entry {
-        const ShapeRecord<S>* record;
+        const ShapeRecord<S>* record = nullptr;
         Pose<S> X;
         BodyId body;
     };
@@ -122,11 +128,24 @@ class WorldQueries {
         return {entries_[i].body, entries_[i].record->id, piece};
     }
 
+    void matchShapes();
+    void build();
+    bool isLoose(std::uint32_t i) const { return leafOf_[i] == kNullIndex; }
+
+    const World<S>* world_;
+    int builds_ = 0;
+    // --- by dense index of the shape
     std::vector<Entry> entries_;
+    std::vector<ShapeId> ids_;
     std::vector<Aabb<S>> boxes_;
-    std::vector<std::uint32_t> inTree_,
-        outside_;  ///< entries with bounded boxes, in the tree's order; others
+    std::vector<std::uint32_t> leafOf_;  ///< its leaf; kNullIndex: none
+    // --- by leaf of the tree
+    std::vector<std::uint32_t> entryOf_;  ///< kNullIndex: the shape is gone
+    std::vector<Aabb<S>> leafBoxes_;
+    std::vector<std::uint32_t> outside_;  ///< shapes with unbounded boxes, and those that have no leaf yet
     StaticTree<S> tree_;
+    std::uint32_t gone_ = 0, loose_ = 0;  ///< leaves without a shape, bounded shapes without a leaf
+    Real builtSize_ = 0;                  ///< StaticTree::refit() of the tree as built
 };
 
 }  // namespace rigor::engine

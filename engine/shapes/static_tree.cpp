@@ -46,6 +46,24 @@ void StaticTree<S>::split(std::span<const Aabb<S>> boxes, std::span<std::uint32_
     split(boxes, indices.subspan(half));
 }
 
+template <class S>
+typename S::Real StaticTree<S>::refit(std::span<const Aabb<S>> boxes) {
+    typename S::Real size = 0;
+    // Children come after their parents.
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+        Node& node = nodes_[i];
+        if (node.leaf) {
+            node.box = boxes[node.link];
+            continue;
+        }
+        const Aabb<S>&a = nodes_[i + 1].box, &b = nodes_[node.link].box;
+        node.box = {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
+        const typename S::Vec diagonal = node.box.max - node.box.min;
+        if (diagonal.minCoeff() >= 0) size += diagonal.norm();
+    }
+    return size;
+}
+
 RIGOR_INSTANTIATE_CLASS(StaticTree)
 
 }  // namespace rigor::engine

@@ -4,7 +4,7 @@
 // Bounding-volume hierarchy over boxes that do not move: the triangles of a mesh, the segments of a chain,
 // the shapes of a world during queries. Built top down by splitting at the median centre along the widest
 // axis [Ericson2005, ch. 6.2], so that its depth is log2 of the count; nodes are stored depth first.
-// Cost: building O(n log^2 n), a query O(log n + found) for compact boxes. Queries do not allocate.
+// Cost: building O(n log^2 n), fitting it to boxes that have moved O(n), a query O(log n + found) for compact boxes. Queries do not allocate.
 #pragma once
 
 #include <array>
@@ -41,6 +41,10 @@ class StaticTree {
   public:
     /// Boxes may be unbounded only in a direction in which all are (or they are better kept outside).
     void build(std::span<const Aabb<S>> boxes);
+    /// Fits the nodes to boxes that have moved, in O(n): as many as in build(), empty ones (min > max) for those that are
+    /// gone. Queries then find the same as after build() and cost more, the further the boxes have moved apart. Returns
+    /// the sum of the diagonals of the inner nodes' boxes, by which that can be told.
+    typename S::Real refit(std::span<const Aabb<S>> boxes);
     bool empty() const { return nodes_.empty(); }
     const Aabb<S>& bounds() const { return nodes_[0].box; }
 
