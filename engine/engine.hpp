@@ -9,6 +9,7 @@
 #include "engine/embedding/solid_body.hpp"
 #include "engine/embedding/svg_lines.hpp"
 #include "engine/pipeline/algorithms.hpp"
+#include "engine/pipeline/choices.hpp"
 #include "engine/pipeline/events.hpp"
 #include "engine/pipeline/world.hpp"
 #include "engine/queries/world_queries.hpp"
