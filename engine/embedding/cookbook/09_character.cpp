@@ -21,7 +21,7 @@ int main() {
     addSolid<S>(world, {{makeHeightField<S>(41, 41, 0.5, 0.5, heights, 1.0)}}, place);
     place.type = BodyType::Dynamic;
     place.pose.p = {-3, 1.5, 0};
-    const BodyId character = addSolid<S>(world, {{Capsule<S>{0.3, 0.6}, 900}}, place);
+    const BodyId character = addSolid<S>(world, {{Capsule<S>{0.3, 0.6}, 900, kFrictionless}}, place);
     for (int i = 0; i < 360; ++i) {
         const double falling = world.velocity(character).y();
         const bool started = i >= 60;  // it has landed by then

@@ -9,15 +9,13 @@ using namespace rigor::engine;
 using S = Space3f;
 
 int main() {
-    WorldDef<S> def;
+    auto def = WorldDef<S>::preset("fast");
     def.gravity = {0, -9.81f, 0};
-    preferSpeed(def);
     def.threads = 2;
     World<S> world(def);
-    const auto stone = world.addMaterial(0.5f, 0);
     BodyDef<S> place;
     place.type = BodyType::Static;
-    addSolid<S>(world, {{HalfSpace<S>{{0, 1, 0}, 0}, 0, stone}}, place);
+    addSolid<S>(world, {{HalfSpace<S>{{0, 1, 0}, 0}}}, place);
     place.type = BodyType::Dynamic;
     BodyId last;
     for (int layer = 0; layer < 10; ++layer)
@@ -25,7 +23,7 @@ int main() {
             const int side = 10 - layer;
             place.pose.p = {1.05f * float(i % side) + 0.525f * float(layer), 0.5f + float(layer),
                             1.05f * float(i / side) + 0.525f * float(layer)};
-            last = addSolid<S>(world, {{Box<S>{{0.5f, 0.5f, 0.5f}}, 1000, stone}}, place);
+            last = addSolid<S>(world, {{Box<S>{{0.5f, 0.5f, 0.5f}}}}, place);
         }
     for (int i = 0; i < 120; ++i) world.step(1.0f / 60);
     std::printf("top at %.1f m\n", double(world.pose(last).p.y()));
