@@ -13,15 +13,14 @@
 #include "adapters/rigor/settings.hpp"
 #include "engine/constraints/joint.hpp"
 #include "engine/pipeline/algorithms.hpp"
-#include "engine/state/prefer_speed.hpp"
+#include "engine/state/world_def.hpp"
 
 namespace rigor::adapter {
 namespace {
 
-/// Settings of engine::preferSpeed, with the solver's own number of iterations.
+/// Settings of the engine's preset of that name, with the solver's own number of iterations.
 Preset fastPreset() {
-    engine::WorldDef<engine::Space3d> def;
-    engine::preferSpeed(def);
+    const auto def = engine::WorldDef<engine::Space3d>::preset("fast");
     return {"fast",
             {{"solver", def.solver},
              {"broad_phase", def.broadPhase},

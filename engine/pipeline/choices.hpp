@@ -23,116 +23,64 @@ struct Choice {
 
 namespace choices {
 
-struct BroadPhaseFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::broadPhase;
-};
-#define ALGORITHM(known, make, summary) inline constexpr Choice<BroadPhaseFamily> broad_phase_##known{#known};
+#define CHOICE_FAMILY(key, memberOfDef)                           \
+    struct family_##key {                                         \
+        template <class S>                                        \
+        static constexpr auto member = &WorldDef<S>::memberOfDef; \
+    };
+#include "engine/pipeline/choice_families.def"
+
+#define ALGORITHM(known, make, summary) \
+    inline constexpr Choice<family_broad_phase> broad_phase_##known{#known};
 #include "engine/broadphase/broadphases.def"
 
-struct NarrowPhaseFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::narrowPhase;
-};
 #define ALGORITHM(known, make, summary) \
-    inline constexpr Choice<NarrowPhaseFamily> narrow_phase_##known{#known};
+    inline constexpr Choice<family_narrow_phase> narrow_phase_##known{#known};
 #include "engine/narrowphase/narrowphases.def"
 
-struct ManifoldFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::manifold;
-};
-#define ALGORITHM(known, make, summary) inline constexpr Choice<ManifoldFamily> manifold_##known{#known};
+#define ALGORITHM(known, make, summary) inline constexpr Choice<family_manifold> manifold_##known{#known};
 #include "engine/narrowphase/manifolds.def"
 
-struct IntegratorFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::integrator;
-};
-#define ALGORITHM(known, make, summary) inline constexpr Choice<IntegratorFamily> integrator_##known{#known};
+#define ALGORITHM(known, make, summary) inline constexpr Choice<family_integrator> integrator_##known{#known};
 #include "engine/integrators/integrators.def"
 
-struct RotationFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::rotation;
-};
-#define ALGORITHM(known, make, summary) inline constexpr Choice<RotationFamily> rotation_##known{#known};
+#define ALGORITHM(known, make, summary) inline constexpr Choice<family_rotation> rotation_##known{#known};
 #include "engine/integrators/rotations.def"
 
-struct OrientationUpdateFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::orientationUpdate;
-};
 #define ALGORITHM(known, make, summary) \
-    inline constexpr Choice<OrientationUpdateFamily> orientation_update_##known{#known};
+    inline constexpr Choice<family_orientation_update> orientation_update_##known{#known};
 #include "engine/integrators/orientation_updates.def"
 
-struct SolverFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::solver;
-};
-#define ALGORITHM(known, make, summary) inline constexpr Choice<SolverFamily> solver_##known{#known};
+#define ALGORITHM(known, make, summary) inline constexpr Choice<family_solver> solver_##known{#known};
 #include "engine/solvers/solvers.def"
 
-struct FrictionFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::friction;
-};
-#define ALGORITHM(known, make, summary) inline constexpr Choice<FrictionFamily> friction_##known{#known};
+#define ALGORITHM(known, make, summary) inline constexpr Choice<family_friction> friction_##known{#known};
 #include "engine/solvers/frictions.def"
 
-struct RestitutionFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::restitution;
-};
 #define ALGORITHM(known, make, summary) \
-    inline constexpr Choice<RestitutionFamily> restitution_##known{#known};
+    inline constexpr Choice<family_restitution> restitution_##known{#known};
 #include "engine/solvers/restitutions.def"
 
-struct FrictionCombineFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::frictionCombine;
-};
 #define ALGORITHM(known, make, summary) \
-    inline constexpr Choice<FrictionCombineFamily> friction_combine_##known{#known};
+    inline constexpr Choice<family_friction_combine> friction_combine_##known{#known};
 #include "engine/solvers/combine_rules.def"
 
-struct RestitutionCombineFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::restitutionCombine;
-};
 #define ALGORITHM(known, make, summary) \
-    inline constexpr Choice<RestitutionCombineFamily> restitution_combine_##known{#known};
+    inline constexpr Choice<family_restitution_combine> restitution_combine_##known{#known};
 #include "engine/solvers/combine_rules.def"
 
-struct PositionCorrectionFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::positionCorrection;
-};
 #define ALGORITHM(known, make, summary) \
-    inline constexpr Choice<PositionCorrectionFamily> position_correction_##known{#known};
+    inline constexpr Choice<family_position_correction> position_correction_##known{#known};
 #include "engine/solvers/position_corrections.def"
 
-struct FaultFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::fault;
-};
-#define ALGORITHM(known, make, summary) inline constexpr Choice<FaultFamily> fault_##known{#known};
+#define ALGORITHM(known, make, summary) inline constexpr Choice<family_fault> fault_##known{#known};
 #include "engine/faults/faults.def"
 
-struct ContinuousCollisionFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::continuousCollision;
-};
 #define ALGORITHM(known, make, summary) \
-    inline constexpr Choice<ContinuousCollisionFamily> continuous_collision_##known{#known};
+    inline constexpr Choice<family_continuous_collision> continuous_collision_##known{#known};
 #include "engine/ccd/continuous_collisions.def"
 
-struct SleepingFamily {
-    template <class S>
-    static constexpr auto member = &WorldDef<S>::sleeping;
-};
-#define ALGORITHM(known, make, summary) inline constexpr Choice<SleepingFamily> sleeping_##known{#known};
+#define ALGORITHM(known, make, summary) inline constexpr Choice<family_sleeping> sleeping_##known{#known};
 #include "engine/sleeping/sleepings.def"
 
 }  // namespace choices

@@ -5,9 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.hpp"
-
-#include <stdexcept>
-
 #include "engine/pipeline/tests/scene.hpp"
 
 namespace rigor::engine::test {
