@@ -35,6 +35,10 @@ namespace choices {
 #include "engine/broadphase/broadphases.def"
 
 #define ALGORITHM(known, make, summary) \
+    inline constexpr Choice<family_bounding_volume> bounding_volume_##known{#known};
+#include "engine/contacts/bounding_volumes.def"
+
+#define ALGORITHM(known, make, summary) \
     inline constexpr Choice<family_narrow_phase> narrow_phase_##known{#known};
 #include "engine/narrowphase/narrowphases.def"
 

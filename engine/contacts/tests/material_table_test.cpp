@@ -23,13 +23,14 @@ TEST(MaterialTable, CombinesByItsRulesInBothOrders) {
     MaterialTable<Space3d> materials = table();
     const std::uint32_t a = materials.add({0.25, 0.5, 0});
     const std::uint32_t b = materials.add({0.64, 0.2, 0.81});
-    EXPECT_EQ(materials.size(), 3u);
+    EXPECT_EQ(materials.size(), 4u) << "with kFrictionless and kUsualMaterial";
     for (const auto& pair : {materials.pair(a, b), materials.pair(b, a)}) {
         EXPECT_DOUBLE_EQ(pair.friction, 0.4);
         EXPECT_DOUBLE_EQ(pair.restitution, 0.2);
         EXPECT_DOUBLE_EQ(pair.staticFriction, 0.45);
     }
-    EXPECT_EQ(materials.pair(0, b).friction, 0) << "material 0 has none";
+    EXPECT_EQ(materials.pair(kFrictionless, b).friction, 0);
+    EXPECT_DOUBLE_EQ(materials.pair(kUsualMaterial, kUsualMaterial).friction, 0.6);
 }
 
 TEST(MaterialTable, KeepsPairsThatWereSetWhenMaterialsAreAdded) {
