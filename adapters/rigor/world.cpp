@@ -365,7 +365,7 @@ class RigorWorld final : public World, public StateSetting {
     R dt_;
     double elapsed_ = 0.0;  ///< time when world_ was built anew [s]
     engine::World<S> world_;
-    std::vector<std::uint32_t> materials_;  ///< of the engine, by the scenario's index
+    std::vector<std::uint32_t> materials_;  ///< the engine's index of each of the scenario's materials
     std::vector<engine::BodyId> bodies_;
     ScenarioIndices indices_;
     RigorStaged<S> staged_{world_, dt_, indices_};

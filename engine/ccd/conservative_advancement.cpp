@@ -18,7 +18,7 @@
 //     velocity and loses the time.
 // Chains, meshes and height fields are met piece by piece (surface_impact.cpp).
 // Only bodies that take part (BodyConstants::continuous) can be fast; they collide with all others. A callback
-// (contacts/pre_solve.hpp) is asked about each impact; one that it refuses is none for the rest of the (sub-)step.
+// (contacts/pre_solve.hpp) is called for each impact; one that it refuses is none for the rest of the (sub-)step.
 // A pair that touches already when the search begins, or has contact rows in this step, is left to the
 // solver: its impact counts only if the shapes would otherwise end up deeper in each other than a quarter of
 // their thickness. Bodies that are slow for their size are left to the contacts alone, so scenes without fast
@@ -228,8 +228,8 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         PairCoefficients<S> coefficients =
             world.contacts.materials().pair(shapes[hit.a].material, shapes[hit.b].material);
         if (world.contacts.preSolve() &&
-            !askPreSolve<S>(world.contacts.preSolve(), bodies, shapes[hit.a], shapes[hit.b], kNullIndex,
-                            manifold, shapeA.body.p, shapeB.body.p, coefficients)) {
+            !callPreSolve<S>(world.contacts.preSolve(), bodies, shapes[hit.a], shapes[hit.b], kNullIndex,
+                             manifold, shapeA.body.p, shapeB.body.p, coefficients)) {
             vetoed_.push_back(pairKey(hit.a, hit.b));
             return true;
         }

@@ -249,8 +249,8 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
                                pair.touch.closest.distance, 0};
     }
     PairCoefficients<S> coefficients = world.contacts.materials().pair(sa.material, sb.material);
-    if (world.contacts.preSolve() && !askPreSolve<S>(world.contacts.preSolve(), bodies, sa, sb, kNullIndex,
-                                                     manifold_, A.p, B.p, coefficients))
+    if (world.contacts.preSolve() && !callPreSolve<S>(world.contacts.preSolve(), bodies, sa, sb, kNullIndex,
+                                                      manifold_, A.p, B.p, coefficients))
         return false;
     const Pose<S> endA = bodies.pose[a], endB = bodies.pose[b];
     bodies.pose[a] = A;

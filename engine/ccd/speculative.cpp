@@ -160,7 +160,7 @@ class Speculative final : public ContinuousCollision<S> {
     SurfaceImpact<S> surfaceImpact_;
     Real h_ = 0;
     std::vector<Pose<S>> starts_;           ///< start poses of the (sub-)step
-    std::vector<std::uint8_t> continuous_;  ///< of each shape: its body takes part
+    std::vector<std::uint8_t> continuous_;  ///< flag of each shape: 1 if its body takes part
     std::vector<MovingShape<S>> moving_;    ///< motion of each shape by dense shape index
 };
 

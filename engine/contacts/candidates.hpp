@@ -61,7 +61,7 @@ class Candidates {
     void renumber(std::span<const std::uint32_t> newIndex);
     /// Swaps the two shapes of candidates whose bodies are out of order, and forgets their cached manifolds.
     void orderBodies(const ShapeSet<S>& shapes);
-    /// The next step asks the narrow phase about the shapes of this body.
+    /// The next step calls the narrow phase for the shapes of this body.
     void forgetCached(const ShapeSet<S>& shapes, std::uint32_t body);
 
     SlotList<Candidate<S>>& list() { return list_; }

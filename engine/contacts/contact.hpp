@@ -45,7 +45,7 @@ struct alignas(64) Contact {
     bool speculative = false;  ///< found on the bodies' way by continuous collision: has rows at any distance
     bool touching = false;     ///< overlapped when found, or had an impulse in the step since
     bool touched = false;      ///< value of `touching` at the end of the step before
-    bool vetoed = false;       ///< refused by the callback when it was last asked (pre_solve.hpp)
+    bool vetoed = false;       ///< refused by the callback in its last call (pre_solve.hpp)
     bool placed = false;       ///< the points' arms and separations are those of the manifold
     bool impacts = false;      ///< some point has `impact`
     bool driven = false;       ///< a surface has a velocity over its body: surfaceA, surfaceB

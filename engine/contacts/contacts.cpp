@@ -115,20 +115,20 @@ void Contacts<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S
                                   search_.bouncesAhead};
     finder_.run(update, pairs_.exact(), candidates_, list_, tasks);
     coefficientsOf_ = materials_.revision();
-    if (preSolve_) askPreSolve(bodies);
+    if (preSolve_) callPreSolve(bodies);
 }
 
 /// Contacts of bodies that sleep keep what they had.
 template <class S>
-void Contacts<S>::askPreSolve(const BodyArrays<S>& bodies) {
+void Contacts<S>::callPreSolve(const BodyArrays<S>& bodies) {
     coefficientsOf_ = 0;
     std::vector<std::uint64_t> vetoed;
     for (Contact<S>& contact : list_) {
         const ShapeRecord<S>&a = shapes_[contact.shapeA], &b = shapes_[contact.shapeB];
         if (!isAsleep<S>(bodies, contact))
-            contact.vetoed = !engine::askPreSolve<S>(preSolve_, bodies, a, b, contact.piece, contact.manifold,
-                                                     bodies.pose[contact.bodyA].p,
-                                                     bodies.pose[contact.bodyB].p, contact.coefficients);
+            contact.vetoed = !engine::callPreSolve<S>(preSolve_, bodies, a, b, contact.piece,
+                                                      contact.manifold, bodies.pose[contact.bodyA].p,
+                                                      bodies.pose[contact.bodyB].p, contact.coefficients);
         if (!contact.vetoed) continue;
         contact.touching = false;
         contact.impulses.fill({});

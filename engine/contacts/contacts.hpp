@@ -61,9 +61,9 @@ class Contacts {
     void bodyMoved(std::uint32_t from, std::uint32_t to);
     /// Must be called after a shape has got another material.
     void materialsChanged() { coefficientsOf_ = 0; }
-    /// Sets the callback that is asked about each contact before it is solved; null: none.
-    void setPreSolve(PreSolve<S> ask) {
-        preSolve_ = std::move(ask);
+    /// Sets the callback that is called for each contact before it is solved; null: none.
+    void setPreSolve(PreSolve<S> callback) {
+        preSolve_ = std::move(callback);
         coefficientsOf_ = 0;
     }
     const PreSolve<S>& preSolve() const { return preSolve_; }
@@ -104,7 +104,7 @@ class Contacts {
     bool completeRestored();
 
   private:
-    void askPreSolve(const BodyArrays<S>& bodies);
+    void callPreSolve(const BodyArrays<S>& bodies);
 
     MaterialTable<S> materials_;
     ShapeSet<S> shapes_;

@@ -18,9 +18,9 @@ bool inRange(const PairCoefficients<S>& c) {
 }  // namespace
 
 template <class S>
-bool askPreSolve(const PreSolve<S>& ask, const BodyArrays<S>& bodies, const ShapeRecord<S>& a,
-                 const ShapeRecord<S>& b, std::uint32_t piece, const Manifold<S>& manifold,
-                 const typename S::Vec& pA, const typename S::Vec& pB, PairCoefficients<S>& coefficients) {
+bool callPreSolve(const PreSolve<S>& callback, const BodyArrays<S>& bodies, const ShapeRecord<S>& a,
+                  const ShapeRecord<S>& b, std::uint32_t piece, const Manifold<S>& manifold,
+                  const typename S::Vec& pA, const typename S::Vec& pB, PairCoefficients<S>& coefficients) {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
     PreSolveContact<S> contact;
@@ -37,7 +37,7 @@ bool askPreSolve(const PreSolve<S>& ask, const BodyArrays<S>& bodies, const Shap
     if (manifold.count > 0) middle /= static_cast<Real>(manifold.count);
     const Velocity<S>&A = bodies.velocity[a.body], &B = bodies.velocity[b.body];
     contact.velocity = B.v + cross(B.w, Vec(middle - pB)) - A.v - cross(A.w, Vec(middle - pA));
-    ask(contact);
+    callback(contact);
     if (contact.veto) return false;
     if (!inRange<S>(contact.coefficients))
         throw EngineError("pre_solve", "a callback has set coefficients that are out of range");
@@ -45,10 +45,10 @@ bool askPreSolve(const PreSolve<S>& ask, const BodyArrays<S>& bodies, const Shap
     return true;
 }
 
-#define RIGOR_INSTANTIATE(S)                                                                              \
-    template bool askPreSolve<S>(const PreSolve<S>&, const BodyArrays<S>&, const ShapeRecord<S>&,         \
-                                 const ShapeRecord<S>&, std::uint32_t, const Manifold<S>&, const S::Vec&, \
-                                 const S::Vec&, PairCoefficients<S>&);
+#define RIGOR_INSTANTIATE(S)                                                                               \
+    template bool callPreSolve<S>(const PreSolve<S>&, const BodyArrays<S>&, const ShapeRecord<S>&,         \
+                                  const ShapeRecord<S>&, std::uint32_t, const Manifold<S>&, const S::Vec&, \
+                                  const S::Vec&, PairCoefficients<S>&);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 

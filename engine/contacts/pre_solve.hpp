@@ -6,9 +6,9 @@
 //
 // The callback is called by the thread that steps the world, once per step for each contact of two shapes that
 // touch or nearly do, in the order of World::manifolds(), when all contacts have been found and before any body has
-// moved. Contacts with a chain, mesh or height field are one for each piece. Contacts of bodies that all sleep or
-// stand still are not asked about; they keep what they had. Continuous collision asks, at the time of the impact and
-// in its order, about the impacts that it finds by itself.
+// moved. Contacts with a chain, mesh or height field are one for each piece. It is not called for contacts of
+// bodies that all sleep or stand still; they keep what they had. Continuous collision calls it for the impacts that it
+// finds by itself, in the order of their times.
 #pragma once
 
 #include <cstdint>
@@ -26,24 +26,25 @@ template <class S>
 struct PreSolveContact {
     BodyId bodyA, bodyB;  ///< A is the body of lower dense index
     ShapeId shapeA, shapeB;
-    std::uint32_t piece = kNullIndex;           ///< segment or triangle of a surface; of an impact: none
-    typename S::Vec normal = S::Vec::Zero();    ///< unit, A to B, world frame
-    std::span<const ManifoldPoint<S>> points;   ///< world frame, with their separations [m]; < 0: overlap
-    typename S::Vec velocity = S::Vec::Zero();  ///< of B relative to A in the middle of the points [m/s]
+    std::uint32_t piece = kNullIndex;          ///< segment or triangle of a surface; of an impact: none
+    typename S::Vec normal = S::Vec::Zero();   ///< unit, A to B, world frame
+    std::span<const ManifoldPoint<S>> points;  ///< world frame, with their separations [m]; < 0: overlap
+    typename S::Vec velocity =
+        S::Vec::Zero();  ///< velocity of B relative to A in the middle of the points [m/s]
 
     // --- what the callback may change, for this step
-    PairCoefficients<S> coefficients;  ///< those of the two materials
+    PairCoefficients<S> coefficients;  ///< at first the coefficients of the two materials
     bool veto = false;                 ///< true: the two do not touch
 };
 
 template <class S>
 using PreSolve = std::function<void(PreSolveContact<S>&)>;
 
-/// Asks about the contact of two shapes whose bodies' centres of mass are at pA and pB. Returns false for a veto,
+/// Calls the callback for the contact of two shapes whose bodies' centres of mass are at pA and pB. Returns false for a veto,
 /// else replaces the coefficients. Throws EngineError "pre_solve" where these are out of range.
 template <class S>
-bool askPreSolve(const PreSolve<S>& ask, const BodyArrays<S>& bodies, const ShapeRecord<S>& a,
-                 const ShapeRecord<S>& b, std::uint32_t piece, const Manifold<S>& manifold,
-                 const typename S::Vec& pA, const typename S::Vec& pB, PairCoefficients<S>& coefficients);
+bool callPreSolve(const PreSolve<S>& callback, const BodyArrays<S>& bodies, const ShapeRecord<S>& a,
+                  const ShapeRecord<S>& b, std::uint32_t piece, const Manifold<S>& manifold,
+                  const typename S::Vec& pA, const typename S::Vec& pB, PairCoefficients<S>& coefficients);
 
 }  // namespace rigor::engine

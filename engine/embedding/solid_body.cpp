@@ -28,7 +28,7 @@ BodyId addSolid(World<S>& world, std::initializer_list<SolidPart<S>> parts, Body
         world.removeBody(body);
         throw;
     }
-    // That of the centre of mass, where the shapes have put it.
+    // The velocity of `def` is that of the centre of mass, which the shapes have moved.
     if (def.type != BodyType::Static) world.setVelocity(body, def.velocity, def.angularVelocity);
     return body;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Where the mass properties of a body come from: given by hand, or those of its shapes (BodyDef::mass).
+// The mass properties of a body: given by hand, or those of its shapes (BodyDef::mass).
 //
 // Two parts of masses m, n with centres c, d and inertias I, J about these make one of mass m + n with its centre at
 // (m c + n d) / (m + n) and, by Steiner's theorem, with r = d - c, the inertia
@@ -34,7 +34,7 @@ struct BodyMass {
 /// Adds the part to the whole; both about their own centres, in one frame.
 template <class S>
 void addMass(const MassProperties<S>& part, MassProperties<S>& whole);
-/// Of a shape on a body with this centre of mass, in the body frame; zero for shapes that have no density.
+/// Mass properties of a shape on a body with this centre of mass, in the body frame; zero for shapes that have no density.
 template <class S>
 MassProperties<S> massOfShape(const ShapeRecord<S>& shape, const typename S::Vec& centerOfMass);
 

@@ -84,7 +84,7 @@ class World {
     /// (contacts/pre_solve.hpp); null: none. Copies of the world have the same callback. What it throws ends the step
     /// where it is and leaves step(); the world may go on from there, or from a snapshot. A callback may read the world
     /// but not change it.
-    void setPreSolve(PreSolve<S> ask) { parts_.contacts.setPreSolve(std::move(ask)); }
+    void setPreSolve(PreSolve<S> callback) { parts_.contacts.setPreSolve(std::move(callback)); }
     /// Sets the observer of the solver, null: none. Copies of the world have the same observer.
     void observeIterations(IterationObserver<S> observer) { step_.observer = std::move(observer); }
 
@@ -171,7 +171,7 @@ class World {
     /// moreau_midpoint impacts of bodies in flight are those of the algorithm.
     void setContinuous(BodyId body, ContinuousMode mode);
 
-    /// What overlaps or touches a sensor: shapes of other bodies, sorted, as they were at the end of the last step
+    /// Shapes that overlap or touch a sensor, of other bodies, sorted, as they were at the end of the last step
     /// (contacts/sensors.hpp); StepResult::events has the changes. The list is valid until the next step. Throws
     /// EngineError "sensor" for a shape that is none.
     std::span<const SensorOverlap> sensorOverlaps(ShapeId sensor) const;

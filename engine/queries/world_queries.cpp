@@ -79,7 +79,7 @@ void WorldQueries<S>::update() {
     constexpr std::uint32_t kFewest = 16;  // shapes whose search one by one costs no more than the tree's
     const auto many = std::max(kFewest, static_cast<std::uint32_t>(records.size() / 8));
     // Twice the diagonals: about twice the nodes that a query visits.
-    if (gone_ + loose_ > many || (builds_ == 0 && loose_ > 0) || size > Real(2) * builtSize_) build();
+    if (removed_ + loose_ > many || (builds_ == 0 && loose_ > 0) || size > Real(2) * builtSize_) build();
 }
 
 /// Shapes keep their order when others are removed, and new ones come last.
@@ -104,7 +104,7 @@ void WorldQueries<S>::matchShapes() {
         constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
         entryOf_[leafOf_[old]] = kNullIndex;
         leafBoxes_[leafOf_[old]] = {Vec::Constant(kInfinity), Vec::Constant(-kInfinity)};
-        ++gone_;
+        ++removed_;
     }
     entries_.resize(records.size());
     ids_.resize(records.size());
@@ -136,7 +136,7 @@ void WorldQueries<S>::build() {
     }
     tree_.build(leafBoxes_);
     builtSize_ = tree_.refit(leafBoxes_);
-    gone_ = loose_ = 0;
+    removed_ = loose_ = 0;
     ++builds_;
 }
 

@@ -91,7 +91,7 @@ class WorldQueries {
     explicit WorldQueries(const World<S>& world);
     /// Follows the world to where its bodies and shapes are now.
     void update();
-    /// How often the tree has been built, for those who count.
+    /// Number of times that the tree has been built.
     int builds() const { return builds_; }
 
     /// Nearest hit of x = origin + t translation, 0 <= t <= 1. Throws EngineError "query_ray" for numbers
@@ -144,8 +144,8 @@ class WorldQueries {
     std::vector<Aabb<S>> leafBoxes_;
     std::vector<std::uint32_t> outside_;  ///< shapes with unbounded boxes, and those that have no leaf yet
     StaticTree<S> tree_;
-    std::uint32_t gone_ = 0, loose_ = 0;  ///< leaves without a shape, bounded shapes without a leaf
-    Real builtSize_ = 0;                  ///< StaticTree::refit() of the tree as built
+    std::uint32_t removed_ = 0, loose_ = 0;  ///< leaves without a shape, bounded shapes without a leaf
+    Real builtSize_ = 0;                     ///< StaticTree::refit() of the tree as built
 };
 
 }  // namespace rigor::engine

@@ -43,7 +43,7 @@ class StaticTree {
     void build(std::span<const Aabb<S>> boxes);
     /// Fits the nodes to boxes that have moved, in O(n): as many as in build(), empty ones (min > max) for those that are
     /// gone. Queries then find the same as after build() and cost more, the further the boxes have moved apart. Returns
-    /// the sum of the diagonals of the inner nodes' boxes, by which that can be told.
+    /// the sum of the diagonals of the inner nodes' boxes, by which the cost can be judged.
     typename S::Real refit(std::span<const Aabb<S>> boxes);
     bool empty() const { return nodes_.empty(); }
     const Aabb<S>& bounds() const { return nodes_[0].box; }

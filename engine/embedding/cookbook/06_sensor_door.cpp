@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A door that opens while somebody is in front of it: a sensor, and the events of a step.
+// A door that opens while a body is in front of it: a sensor, and the events of a step.
 //> open from 0.38 s to 1.68 s
 #include <cstdio>
 #include <engine/engine.hpp>
@@ -27,8 +27,8 @@ int main() {
     for (int i = 0; i < 180; ++i)
         for (const auto& event : world.step(1.0 / 60).events) {
             (event.kind == EventKind::SensorBegins ? opened : closed) = world.time();
-            const bool somebody = !world.sensorOverlaps(sensor).empty();
-            world.setVelocity(door, {0, somebody ? 1.0 : -1.0, 0}, {0, 0, 0});
+            const bool occupied = !world.sensorOverlaps(sensor).empty();
+            world.setVelocity(door, {0, occupied ? 1.0 : -1.0, 0}, {0, 0, 0});
         }
     std::printf("open from %.2f s to %.2f s\n", opened, closed);
 }

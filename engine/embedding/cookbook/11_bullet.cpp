@@ -23,6 +23,6 @@ int main() {
     place.continuous = ContinuousMode::World;
     const BodyId ball = addSolid<S>(world, {{Sphere<S>{0.05}}}, place);
     for (int i = 0; i < 10; ++i) world.step(1.0 / 60);
-    const auto tell = [&](BodyId body) { return world.pose(body).p.x() < 2.1 ? "stopped" : "through"; };
-    std::printf("the bullet is %s, the ball is %s\n", tell(bullet), tell(ball));
+    const auto result = [&](BodyId body) { return world.pose(body).p.x() < 2.1 ? "stopped" : "through"; };
+    std::printf("the bullet is %s, the ball is %s\n", result(bullet), result(ball));
 }

@@ -123,7 +123,7 @@ TYPED_TEST(PreSolveCall, ChangesFrictionForAStep) {
         const BodyId box = addCube<S>(world, 0, 0.5, 0.5, 1, material, 2);
         world.setPreSolve([](PreSolveContact<S>& contact) {
             EXPECT_EQ(contact.coefficients.friction, R(0.5))
-                << "asked with those of the materials in each step";
+                << "called with those of the materials in each step";
             contact.coefficients.friction = R(0.25);
         });
         for (int i = 0; i < 30; ++i) world.step(R(kTick));
@@ -152,7 +152,7 @@ TYPED_TEST(PreSolveCall, ChangesRestitution) {
     EXPECT_GT(fastest, 2);
 }
 
-/// The order is that of the contacts, whatever the threads; sleeping contacts are not asked about.
+/// The order is that of the contacts, whatever the threads; it is not called for sleeping contacts.
 TYPED_TEST(PreSolveCall, IsCalledInTheOrderOfContacts) {
     using S = TypeParam;
     using R = typename S::Real;
@@ -210,7 +210,7 @@ TYPED_TEST(PreSolveCall, IsSeenByIslandsAndSnapshots) {
     EXPECT_TRUE(world.isAsleep(b)) << "two islands, restored";
 }
 
-/// What a callback throws leaves the step; the world goes on from there.
+/// An exception of the callback leaves the step; the world goes on from there.
 TYPED_TEST(PreSolveCall, MayThrow) {
     using S = TypeParam;
     using R = typename S::Real;
@@ -233,13 +233,13 @@ TYPED_TEST(PreSolveCall, CostsNoBit) {
     using S = TypeParam;
     using R = typename S::Real;
     std::uint64_t hashes[2];
-    for (const bool asks : {false, true}) {
+    for (const bool called : {false, true}) {
         World<S> world(earth<S>());
         addGround<S>(world, kUsualMaterial);
         for (int i = 0; i < 20; ++i) addCube<S>(world, 0.3 * (i % 3), 0.6 + 1.1 * i, 0.5, 1, kUsualMaterial);
-        if (asks) world.setPreSolve([](PreSolveContact<S>&) {});
+        if (called) world.setPreSolve([](PreSolveContact<S>&) {});
         for (int i = 0; i < 100; ++i) world.step(R(kTick));
-        hashes[asks] = world.stateHash();
+        hashes[called] = world.stateHash();
     }
     EXPECT_EQ(hashes[0], hashes[1]);
 }
