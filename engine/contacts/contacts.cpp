@@ -72,6 +72,8 @@ void Contacts<S>::bodyMoved(std::uint32_t from, std::uint32_t to) {
         std::swap(contact.shapeA, contact.shapeB);
         flipManifold(contact.manifold);
         contact.cache = {};
+        contact.moment = -contact.moment;
+        contact.momentTotal = -contact.momentTotal;
         contact.placed = false;
         for (std::size_t i = 0; i < contact.impulses.size(); ++i) {
             contact.impulses[i].friction = -contact.impulses[i].friction;
@@ -83,8 +85,11 @@ void Contacts<S>::bodyMoved(std::uint32_t from, std::uint32_t to) {
 
 template <class S>
 void Contacts<S>::forgetImpulses(std::uint32_t body) {
-    for (Contact<S>& contact : list_)
-        if (contact.bodyA == body || contact.bodyB == body) contact.impulses.fill({});
+    for (Contact<S>& contact : list_) {
+        if (contact.bodyA != body && contact.bodyB != body) continue;
+        contact.impulses.fill({});
+        contact.moment = zeroAng<S>();
+    }
 }
 
 template <class S>
@@ -132,6 +137,7 @@ void Contacts<S>::callPreSolve(const BodyArrays<S>& bodies) {
         if (!contact.vetoed) continue;
         contact.touching = false;
         contact.impulses.fill({});
+        contact.moment = zeroAng<S>();
         vetoed.push_back(CollisionFilter<S>::vetoKey(a, b));
     }
     std::sort(vetoed.begin(), vetoed.end());

@@ -12,6 +12,8 @@ namespace {
 template <class S>
 bool inRange(const PairCoefficients<S>& c) {
     return c.friction >= 0 && std::isfinite(c.friction) && c.restitution >= 0 && c.restitution <= 1 &&
+           c.rollingFriction >= 0 && std::isfinite(c.rollingFriction) && c.torsionalFriction >= 0 &&
+           std::isfinite(c.torsionalFriction) &&
            (c.staticFriction == 0 || (c.staticFriction >= c.friction && std::isfinite(c.staticFriction)));
 }
 

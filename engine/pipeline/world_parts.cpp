@@ -82,6 +82,7 @@ void WorldParts<S>::updateMass(std::uint32_t body) {
         --left;
         shape.local.p -= way;
         shape.boundingRadius = coreBoundingRadius<S>(shape.shape, shape.local);
+        shape.surface.v += cross(shape.surface.w, way);
     }
     joints.centerMoved(body, way);
     forces.centerMoved(body, way);
