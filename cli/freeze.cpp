@@ -7,8 +7,8 @@
 
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
-#include "scenarios/model/counted.hpp"
 #include "validation/contact_problems/export_step.hpp"
+#include "validation/results/counted.hpp"
 #include "validation/runner/judge.hpp"
 #include "validation/runner/scenario_settings.hpp"
 #include "validation/runner/simulate.hpp"
@@ -37,7 +37,7 @@ int exportStep(const FreezeArguments& a) {
     const validation::ExportSummary summary = validation::exportToFile(request, ownBinary(), a.out);
     std::printf("%s: step %zu of %s by %s, to t = %g s: %s, %s", a.out.c_str(), request.step,
                 loaded.scenario.name.c_str(), request.spec.text().c_str(), summary.time,
-                scenario::counted(summary.contacts, "contact").c_str(),
+                results::counted(summary.contacts, "contact").c_str(),
                 (summary.bodies == 1 ? "1 body" : std::to_string(summary.bodies) + " bodies").c_str());
     if (summary.storedResidual >= 0.0)
         std::printf(", natural map of the engine's own solution %.1e", summary.storedResidual);

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "cli/command.hpp"
-#include "scenarios/model/counted.hpp"
 #include "validation/import/importer.hpp"
+#include "validation/results/counted.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -36,7 +36,7 @@ int runImport(const ImportArguments& a) {
     const auto train = std::count_if(imported.scenarios.begin(), imported.scenarios.end(),
                                      [](const auto& s) { return s.train; });
     const auto test = static_cast<std::ptrdiff_t>(imported.scenarios.size()) - train;
-    std::printf("%s in %s", scenario::counted(imported.scenarios.size(), "scenario").c_str(), folder.c_str());
+    std::printf("%s in %s", results::counted(imported.scenarios.size(), "scenario").c_str(), folder.c_str());
     if (train > 0) std::printf(": %td to fit on (train.json)", train);
     if (test > 0) std::printf("%s %td to score on (test.json)", train > 0 ? "," : ":", test);
     std::printf("\n");

@@ -33,7 +33,7 @@ fs::path chooseRunFolder(const std::string& out, bool resume, const std::string&
         if (c == ' ' || c == '/') c = '+';
     std::error_code ignored;
     fs::create_directories(runs, ignored);
-    // Of runs that start in the same second each makes a folder of its own.
+    // Each of the runs that start in the same second makes a folder of its own.
     const std::string first = name.substr(0, 60) + "-" + stamp;
     fs::path directory = runs / first;
     for (int n = 2; !fs::create_directory(directory, ignored) && fs::exists(directory); ++n)

@@ -78,7 +78,7 @@ struct ReadBack {
 /// Work counters of the last step; -1 if the engine does not report them.
 struct StepCounters {
     std::int64_t pairTests = -1;           ///< box tests of the broad phase
-    std::int64_t narrowPhaseQueries = -1;  ///< of pairs of shapes, and of pieces of surfaces
+    std::int64_t narrowPhaseQueries = -1;  ///< queries of pairs of shapes or pieces of surfaces
     std::int64_t pairs = -1, contacts = -1, islands = -1, solverIterations = -1;
     double residual = -1.0;                      ///< residual of the velocity solver, engine's own measure
     std::map<std::string, double> phaseSeconds;  ///< wall time by phase name, where the engine measures it

@@ -33,7 +33,7 @@ TEST(Choices, TheWholeMenuIsListed) {
         {"broad_phase",
          {"brute_force", "sweep_and_prune", "sweep_and_prune_all_axes", "uniform_grid", "octree",
           "dynamic_aabb_tree"}},
-        {"bounding_volume", {"box", "sphere", "box_and_sphere"}},
+        {"bounding_volume", {"aabb", "bounding_sphere", "aabb_and_sphere"}},
         {"narrow_phase", {"sat", "gjk_epa", "mpr"}},
         {"manifold", {"deepest", "clipped", "persistent"}},
         {"solver",

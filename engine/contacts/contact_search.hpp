@@ -17,7 +17,7 @@ struct ContactSearch {
     Real motionTime = 0;        ///< speculativeMotion of the step [s]
     Real largeMotionTime = 0;   ///< the same where a body of a large island takes part; 0: there is none [s]
     bool bouncesAhead = false;  ///< the solver keeps points that bounce until they touch
-    BoundingVolume volume{};       ///< what stands for a shape
+    BoundingVolume volume{};    ///< the volume that stands for a shape
     Real largeCacheTolerance = 0;  ///< cacheTolerance of bodies of large islands (pipeline/island_method.hpp)
 
     /// Time in which the motion of shapes is looked ahead, of all or of some pairs [s].

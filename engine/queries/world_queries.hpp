@@ -33,7 +33,7 @@ struct ShapeRef {
     std::uint32_t piece = 0xffffffffu;
 };
 
-/// What a query finds: bodies that a function takes, shapes that would collide with a shape of the given filter,
+/// The filter of a query: bodies that a function takes, shapes that would collide with a shape of the given filter,
 /// both, or all.
 class QueryFilter {
   public:

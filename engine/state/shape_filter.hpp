@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which shapes a shape collides with. A layer is a bit of 64. Two shapes collide if each has a layer of the
+// The filter that says which shapes a shape collides with. A layer is a bit of 64. Two shapes collide if each has a layer of the
 // other in its mask:
 //
 //     (A.mask & B.layers) != 0  and  (B.mask & A.layers) != 0
 //
-// Shapes that have the same group, not 0, ask the group alone: a positive one always collides, a negative one
+// Shapes that have the same group, not 0, go by the group alone: a positive one always collides, a negative one
 // never.
 #pragma once
 

@@ -89,7 +89,7 @@ struct ShapeDef {
     /// at the origin of the body frame [m/s], and the angular velocity [rad/s], in the axes of the body frame. A
     /// point x of the surface moves with v + w x x. Friction sees it, the normal does not.
     Velocity<S> surfaceVelocity = {};
-    ShapeFilter filter = {};          ///< what it collides with; by default, all
+    ShapeFilter filter = {};          ///< shapes that it collides with; by default, all
     typename S::Real density = 1000;  ///< [kg/m^3] (2D: [kg/m^2]), >= 0: mass of its body (BodyDef::mass)
     /// A sensor finds the shapes that overlap it (World::sensorOverlaps) and touches none; it has no mass.
     bool sensor = false;

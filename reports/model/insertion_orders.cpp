@@ -10,7 +10,7 @@
 
 #include "reports/encoding/text.hpp"
 #include "reports/model/view_model.hpp"
-#include "scenarios/model/counted.hpp"
+#include "validation/results/counted.hpp"
 #include "validation/results/insertion_orders.hpp"
 
 namespace rigor::report {
@@ -109,14 +109,14 @@ std::string ordersTotalText(const results::Run& run) {
     if (all == 0) return "";
     const auto dependent = std::count_if(run.cases.begin(), run.cases.end(), isOrderDependent);
     const std::string counts = orderCountsText(run);
-    return std::to_string(dependent) + " of " + scenario::counted(all, "case") + " order-dependent" +
+    return std::to_string(dependent) + " of " + results::counted(all, "case") + " order-dependent" +
            (counts.empty() ? "" : " (" + counts + ")");
 }
 
 std::string ordersHeading(const results::Run& run, std::size_t dependent) {
     const std::size_t all = casesInOrders(run);
     if (all == 0) return "";
-    const std::string of = scenario::counted(all, "case") + " run in several orders";
+    const std::string of = results::counted(all, "case") + " run in several orders";
     if (dependent == 0) return "No result depends on the order of insertion (" + of + ")";
     return "Depends on the order of insertion (" + std::to_string(dependent) + " of " + of + ": " +
            orderCountsText(run) + ")";

@@ -7,7 +7,7 @@
 
 #include "reports/encoding/text.hpp"
 #include "reports/model/view_model.hpp"
-#include "scenarios/model/counted.hpp"
+#include "validation/results/counted.hpp"
 #include "validation/results/insertion_orders.hpp"
 #include "validation/results/judgement.hpp"
 
@@ -106,7 +106,7 @@ std::string verdictSentence(const ViewModel& view) {
     const int red = view.totals().red;
     if (red == 0) return name + ": no case is red";
     return name + ": " + std::to_string(red) + " of " +
-           scenario::counted(static_cast<std::size_t>(view.totals().total), "case") +
+           results::counted(static_cast<std::size_t>(view.totals().total), "case") +
            (red == 1 ? " is red" : " are red");
 }
 

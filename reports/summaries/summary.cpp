@@ -14,7 +14,7 @@
 #include "reports/tables/costs.hpp"
 #include "reports/tables/insertion_orders.hpp"
 #include "reports/tables/refinements.hpp"
-#include "scenarios/model/counted.hpp"
+#include "validation/results/counted.hpp"
 #include "validation/results/values.hpp"
 
 namespace rigor::report {
@@ -50,8 +50,8 @@ std::string scoreboardRow(const ViewModel& view, std::size_t s) {
 /// The scoreboard in at most `budget` bytes: where it does not fit whole, scenarios with trouble come first.
 std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
     const std::size_t scenarios = view.run().scenarios.size();
-    std::string out = "\n<details><summary>Scoreboard: " + scenario::counted(scenarios, "scenario") + ", " +
-                      scenario::counted(view.columns().size(), "engine setting") + "</summary>\n\n";
+    std::string out = "\n<details><summary>Scoreboard: " + results::counted(scenarios, "scenario") + ", " +
+                      results::counted(view.columns().size(), "engine setting") + "</summary>\n\n";
     std::string rule = "|---|---|";
     out += "| scenario | number |";
     for (const auto& column : view.columns()) {
@@ -174,7 +174,7 @@ std::string headline(const ViewModel& view) {
     const auto planned = std::max<std::int64_t>(run.plannedCases, view.totals().total);
     return "## Rigor, " + markdownCell(verdictSentence(view)) + "\n\n" + totalsLines(view) + "\n" +
            std::to_string(view.totals().total) + " of " +
-           scenario::counted(static_cast<std::size_t>(planned), "case") +
+           results::counted(static_cast<std::size_t>(planned), "case") +
            (run.finished.empty() ? " (**unfinished**)\n" : "\n");
 }
 

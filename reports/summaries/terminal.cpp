@@ -12,7 +12,7 @@
 
 #include "reports/encoding/text.hpp"
 #include "reports/model/view_model.hpp"
-#include "scenarios/model/counted.hpp"
+#include "validation/results/counted.hpp"
 
 namespace rigor::report {
 namespace {
@@ -253,7 +253,7 @@ std::vector<std::string> totalsLines(const ViewModel& view, std::size_t width) {
     for (const auto& [what, counts] : totalsText(view)) {
         std::istringstream words(
             what + ": " + counts +
-            (what == "endings" ? " of " + scenario::counted(static_cast<std::size_t>(planned), "case") : ""));
+            (what == "endings" ? " of " + results::counted(static_cast<std::size_t>(planned), "case") : ""));
         lines.emplace_back();
         for (std::string word; words >> word;)
             if (lines.back().empty())

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "scenarios/model/counted.hpp"
+#include "validation/results/counted.hpp"
 #include "validation/results/values.hpp"
 #include "validation/runner/answer.hpp"
 
@@ -173,7 +173,7 @@ std::string truthLine(const CollideRun& run) {
         if (c.truth.conflict.empty()) continue;
         if (conflicts++ == 0) first = c.query.name + ": " + c.truth.conflict;
     }
-    std::string line = scenario::counted(run.cases.size(), "case") + ": " + std::to_string(oracle) +
+    std::string line = results::counted(run.cases.size(), "case") + ": " + std::to_string(oracle) +
                        " decided by the oracle, " + std::to_string(file) + " by the file, " +
                        std::to_string(none) + " by none";
     if (conflicts > 0)

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "scenarios/model/counted.hpp"
 #include "validation/contact_problems/solve.hpp"
+#include "validation/results/counted.hpp"
 #include "validation/results/values.hpp"
 #include "validation/runner/answer.hpp"
 
@@ -56,7 +56,7 @@ std::string solveText(const std::vector<SolvedProblem>& problems, bool allSteps)
     std::string text;
     for (const SolvedProblem& problem : problems) {
         text += (text.empty() ? "" : "\n") + problem.name + ": " + std::to_string(problem.dimension) + "D, " +
-                scenario::counted(static_cast<std::size_t>(problem.contacts), "contact") +
+                results::counted(static_cast<std::size_t>(problem.contacts), "contact") +
                 (problem.unknowns > 0 ? ", " + std::to_string(problem.unknowns) + " velocities" : "") + "\n";
         if (!problem.description.empty()) text += "  " + problem.description + "\n";
         text += "  " + padded("solver", 28) + padded("friction", 11) +

@@ -106,7 +106,7 @@ bool isPassive(const Scenario& scenario) {
     for (const auto& body : scenario.bodies)
         if (body.type == BodyType::Kinematic && (body.velocity != Vec3{} || body.angularVelocity != Vec3{}))
             return false;
-    // Belts that rub do work.
+    // Moving surfaces do work.
     for (const auto& body : scenario.bodies)
         for (const auto& shape : body.shapes)
             if (body.collides && shape.surfaceVelocity.moves()) return false;

@@ -107,7 +107,7 @@ const std::vector<Fault>& faults() {
          [](Scenario& s) { s.materials[0].rollingFriction = -0.1; }},
         {"nan torsional friction", "torsional_friction",
          [](Scenario& s) { s.materials[0].torsionalFriction = kNan; }},
-        {"torsional friction in the plane", "torsional_friction",
+        {"torsional friction in 2D", "torsional_friction",
          [](Scenario& s) {
              s.dimension = 2;
              s.materials[0].torsionalFriction = 0.1;

@@ -11,7 +11,7 @@
 namespace rigor::engine::test {
 namespace {
 
-/// What a run of a pile of plates, balls and rods has cost, and where it has ended.
+/// Cost of a run of a pile of plates, balls and rods, and a hash of where it has ended.
 struct Run {
     std::uint64_t hash = 0;
     std::size_t contacts = 0, pairs = 0, queries = 0;
@@ -52,9 +52,9 @@ Run dropPile(const std::string& volume, typename S::Real motion) {
 
 template <class S>
 void expectTheSameContacts(typename S::Real motion) {
-    const Run box = dropPile<S>("box", motion);
-    const Run both = dropPile<S>("box_and_sphere", motion);
-    const Run sphere = dropPile<S>("sphere", motion);
+    const Run box = dropPile<S>("aabb", motion);
+    const Run both = dropPile<S>("aabb_and_sphere", motion);
+    const Run sphere = dropPile<S>("bounding_sphere", motion);
     ASSERT_GT(box.contacts, 500u);
     EXPECT_EQ(both.hash, box.hash);
     EXPECT_EQ(sphere.hash, box.hash);
@@ -91,9 +91,9 @@ TEST(BoundingVolumes, SpheresOfFlatPlatesMeetWhereBoxesDoNot) {
         }
         return world.step(0.01).pairs;
     };
-    EXPECT_EQ(pairsOf("box"), 0u);
-    EXPECT_EQ(pairsOf("box_and_sphere"), 0u);
-    EXPECT_EQ(pairsOf("sphere"), 1u);
+    EXPECT_EQ(pairsOf("aabb"), 0u);
+    EXPECT_EQ(pairsOf("aabb_and_sphere"), 0u);
+    EXPECT_EQ(pairsOf("bounding_sphere"), 1u);
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ template <class S>
 void run(World<S>& world, int steps) {
     for (int i = 0; i < steps; ++i) world.step(static_cast<typename S::Real>(kTick));
 }
-/// What n steps of symplectic Euler fall from rest [m].
+/// Height that n steps of symplectic Euler fall from rest [m].
 double fallen(int n) {
     return kGravity * kTick * kTick * n * (n + 1) / 2;
 }

@@ -33,7 +33,7 @@ interface Page {
   left?: () => void;
 }
 
-/** What of an address says which page it is, and what follows it. */
+/** Parts of an address: the page, the place on it, and what follows. */
 function partsOf(hash: string): { path: string; anchor: string; query: URLSearchParams } {
   const [path = '', query = ''] = hash.split('?');
   if (path.startsWith('#/')) return { path, anchor: '', query: new URLSearchParams(query) };

@@ -34,7 +34,7 @@ const hasBench = () => Boolean(run.bench);
 const hasSteps = () => run.scenarios.some((s) => s.cases.some((c) => c.step));
 const hasOverlaps = () => run.scenarios.some((s) => s.cases.some((c) => c.inRun?.overlapping));
 
-/** What a run was made for comes first: a study, a bench, or the verdict. */
+/** The purpose of a run comes first: a study, a bench, or the verdict. */
 const all: Tab[] = [
   {
     id: 'study',

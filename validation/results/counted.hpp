@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <string>
 
-namespace rigor::scenario {
+namespace rigor::results {
 
 /// "1 case", "2 cases"; for things whose plural has an s alone.
 inline std::string counted(std::size_t n, const std::string& thing) {
     return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
-}  // namespace rigor::scenario
+}  // namespace rigor::results
