@@ -41,6 +41,7 @@ class Box2dEngine final : public adapter::Engine, public adapter::DynamicsEngine
                     "six_dof.motor",  "six_dof.spring", "six_dof.break"};
         c.contactImpulses = c.signedDistance = c.surfaceVelocity = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
+        c.contactFilters = c.shapeFilters = true;
         c.libraryLacks = {
             {"3D", kTwoDimensions},
             {"distance.motor", "b2_distance_joint.h, b2DistanceJointDef: length, bounds and spring"},

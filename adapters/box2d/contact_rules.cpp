@@ -53,7 +53,9 @@ float separationSpeed(const b2Body& a, const Motion& ma, const b2Body& b, const 
 }  // namespace
 
 bool ContactRules::ShouldCollide(b2Fixture* a, b2Fixture* b) {
-    return pairs_.mayCollide(tagOf(a).body, tagOf(b).body);
+    const FixtureTag &ofA = tagOf(a), &ofB = tagOf(b);
+    return pairs_.mayCollide(ofA.body, ofB.body) &&
+           pairs_.shapesMayTouch(ofA.body, ofA.shape, ofB.body, ofB.shape);
 }
 
 void ContactRules::PreSolve(b2Contact* contact, const b2Manifold*) {

@@ -61,6 +61,7 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
         c.queryOptions = {"sat", "box_margin", "cylinder_margin", "hull_margin", "query_path"};
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.rollingFriction = c.torsionalFriction = c.surfaceVelocity = true;
+        c.contactFilters = c.shapeFilters = true;
         c.libraryLacks = {
             {"distance", "btTypedConstraint.h, enum btTypedConstraintType: none keeps a distance"},
             {"static_friction", "btCollisionObject.h, setFriction: the one coefficient of sliding"}};

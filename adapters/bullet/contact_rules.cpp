@@ -5,6 +5,8 @@
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btCompoundCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btInternalEdgeUtility.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -98,6 +100,14 @@ bool onContactAdded(btManifoldPoint& point, const btCollisionObjectWrapper* a, i
     return true;
 }
 
+/// For the shapes of two compounds, or of a compound and another shape: whether their filters let them touch. The
+/// shapes of worlds carry their filters, those of collision queries none.
+bool childrenMayTouch(const btCollisionShape* a, const btCollisionShape* b) {
+    const auto* filterA = static_cast<const scenario::ContactFilter*>(a->getUserPointer());
+    const auto* filterB = static_cast<const scenario::ContactFilter*>(b->getUserPointer());
+    return filterA == nullptr || filterB == nullptr || mayTouch(*filterA, *filterB);
+}
+
 /// The part of an object that stands for shape `index`.
 const btCollisionShape* partOf(const btCollisionObject& object, int index) {
     const btCollisionShape* shape = object.getCollisionShape();
@@ -109,6 +119,8 @@ const btCollisionShape* partOf(const btCollisionObject& object, int index) {
 
 void installContactCallback() {
     gContactAddedCallback = onContactAdded;
+    gCompoundChildShapePairCallback = childrenMayTouch;
+    gCompoundCompoundChildShapePairCallback = childrenMayTouch;
 }
 
 PairCoefficients combinedByBullet(const btCollisionObject& a, int childA, const btCollisionObject& b,

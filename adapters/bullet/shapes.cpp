@@ -148,6 +148,7 @@ BodyShape::BodyShape(const scenario::Body& body, const Pose& comFrame, const Sha
         BuiltShape built = buildGeometry(body.shapes[i].geometry, body.pose * body.shapes[i].pose, settings);
         const Pose local = toCom * body.shapes[i].pose * built.offset;
         built.shape->setUserIndex(i);
+        built.shape->setUserPointer(const_cast<scenario::ContactFilter*>(&body.shapes[i].filter));
         parts_.push_back(std::move(built));
         if (body.shapes.size() == 1 && local == Pose{}) {
             root_ = parts_.back().shape.get();

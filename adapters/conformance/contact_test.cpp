@@ -247,6 +247,56 @@ TEST_P(Contact, WhatMayNotCollideDoesNot) {
     for (const ContactPoint& c : contactsOf(*world)) EXPECT_NE(c.bodyB, ghost);
 }
 
+TEST_P(Contact, LayersAndGroupsDecideWhatCollides) {
+    if (!engine().capabilities().contactFilters) GTEST_SKIP() << "no layers";
+    // What the ground of the layers 1 (bit 0) is to the body: a mask without it, a layer that the ground has not, one
+    // that both want, a group that never collides, and one that always does.
+    struct Case {
+        scenario::ContactFilter ground, body;
+        bool held;
+    };
+    const std::uint32_t all = scenario::kAllLayers;
+    for (const Case& c : {Case{{1, all, 0}, {2, 2, 0}, false}, Case{{1, 1, 0}, {2, all, 0}, false},
+                          Case{{1, 2, 0}, {2, 1, 0}, true}, Case{{1, all, -3}, {1, all, -3}, false},
+                          Case{{1, all, -3}, {1, all, -4}, true}, Case{{1, 0, 5}, {2, 0, 5}, true},
+                          Case{{1U << 15U, 2, 0}, {2, 1U << 15U, 0}, true}}) {
+        Scenario s = scene();
+        s.gravity = {0, -9.81, 0};
+        addGround(s);
+        s.bodies[0].shapes[0].filter = c.ground;
+        const int body = addBody(s, ball(0.5), {0, 0.5, 0});
+        s.bodies[body].shapes[0].filter = c.body;
+        auto world = build(s, 0.01);
+        run(*world, 50);
+        EXPECT_EQ(stateOf(*world, s, body).position.y > 0.4, c.held);
+        EXPECT_EQ(!contactsOf(*world).empty(), c.held);
+        if (!c.held) {
+            EXPECT_LT(stateOf(*world, s, body).position.y, -0.5);
+        }
+    }
+}
+
+TEST_P(Contact, EachShapeOfABodyHasItsOwnLayers) {
+    if (!engine().capabilities().shapeFilters) GTEST_SKIP() << "no layers of shapes";
+    // A ball on another, of which the ground holds only one; the ground alone and as one of two shapes.
+    for (const bool lowerIsHeld : {false, true})
+        for (const bool groundOfTwo : {false, true}) {
+            Scenario s = scene();
+            s.gravity = {0, -9.81, 0};
+            addGround(s);
+            if (groundOfTwo) s.bodies[0].shapes.push_back({ball(0.1), {{50, 0, 0}, {}}, 0});
+            const int body = addBody(s, ball(0.5), {0, 1.5, 0});
+            s.bodies[body].shapes[0].pose.position.y = -1.0;
+            s.bodies[body].shapes.push_back({ball(0.5), {}, 0});
+            s.bodies[body].shapes[lowerIsHeld ? 1 : 0].filter = {2, 2, 0};
+            auto world = build(s, 0.01);
+            run(*world, 100);
+            within("filtered_shape_height",
+                   std::abs(stateOf(*world, s, body).position.y - (lowerIsHeld ? 1.5 : 0.5)), 2e-2);
+            for (const ContactPoint& c : contactsOf(*world)) EXPECT_EQ(c.shapeB, lowerIsHeld ? 0 : 1);
+        }
+}
+
 TEST_P(Contact, JointedBodiesCollideOnlyWhenTheJointSaysSo) {
     if (!hasJoint("hinge")) GTEST_SKIP() << "no hinge";
     for (const bool collide : {false, true}) {

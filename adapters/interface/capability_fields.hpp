@@ -15,7 +15,7 @@ void forEachCapability(C& capabilities, Visit&& visit) {
     auto& [dynamics, collision, broadPhase, dimensions, planar, shapes, joints, contactImpulses,
            signedDistance, queryOptions, kinematicBodies, damping, gravityScale, centerOfMassOffset,
            contactSolvers, staticFriction, rollingFriction, torsionalFriction, surfaceVelocity,
-           libraryLacks] = capabilities;
+           contactFilters, shapeFilters, libraryLacks] = capabilities;
     visit("dynamics", dynamics);
     visit("collision", collision);
     visit("broad_phase", broadPhase);
@@ -35,6 +35,8 @@ void forEachCapability(C& capabilities, Visit&& visit) {
     visit("rolling_friction", rollingFriction);
     visit("torsional_friction", torsionalFriction);
     visit("surface_velocity", surfaceVelocity);
+    visit("contact_filters", contactFilters);
+    visit("shape_filters", shapeFilters);
     visit("library_lacks", libraryLacks);
 }
 

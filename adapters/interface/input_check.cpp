@@ -288,6 +288,16 @@ class Lacks {
     const std::string& engine_;
 };
 
+void checkFilters(const scenario::Body& body, const std::string& user, const Capabilities& capabilities,
+                  const Lacks& lacks) {
+    for (const auto& shape : body.shapes) {
+        if (shape.filter != scenario::ContactFilter{} && !capabilities.contactFilters)
+            lacks("contact_filters", "layers and groups", user);
+        if (shape.filter != body.shapes.front().filter && !capabilities.shapeFilters)
+            lacks("shape_filters", "shapes of one body with different layers or groups", user);
+    }
+}
+
 void checkBodies(const Scenario& scenario, const Capabilities& capabilities, const Lacks& lacks) {
     for (const auto& body : scenario.bodies) {
         const std::string user = "body '" + body.name + "'";
@@ -298,6 +308,7 @@ void checkBodies(const Scenario& scenario, const Capabilities& capabilities, con
             if (body.collides && shape.surfaceVelocity.moves() && !capabilities.surfaceVelocity)
                 lacks("surface_velocity", "velocity of a surface over its body", user);
         }
+        if (body.collides) checkFilters(body, user, capabilities, lacks);
         if (body.type == BodyType::Kinematic && !capabilities.kinematicBodies)
             lacks("kinematic_bodies", "kinematic bodies", user);
         if ((body.linearVelocityKept != 1.0 || body.angularVelocityKept != 1.0) && !capabilities.damping)

@@ -14,7 +14,13 @@ PairTable::PairTable(const Scenario& scenario) : materials_(scenario.materials.s
         collides_.push_back(body.collides && !body.shapes.empty());
         dynamic_.push_back(body.type == scenario::BodyType::Dynamic);
         materialsOf_.emplace_back();
-        for (const auto& shape : body.shapes) materialsOf_.back().push_back(shape.material);
+        filtersOf_.emplace_back();
+        for (const auto& shape : body.shapes) {
+            materialsOf_.back().push_back(shape.material);
+            filtersOf_.back().push_back(shape.filter);
+            filtered_ = filtered_ || shape.filter != scenario::ContactFilter{};
+            filtersByBody_ = filtersByBody_ && shape.filter == filtersOf_.back().front();
+        }
     }
     for (const auto& joint : scenario.joints)
         if (!joint.collideConnected && joint.bodyA != scenario::kNone)
@@ -25,8 +31,16 @@ PairTable::PairTable(const Scenario& scenario) : materials_(scenario.materials.s
 bool PairTable::mayCollide(int bodyA, int bodyB) const {
     const auto a = static_cast<std::size_t>(bodyA), b = static_cast<std::size_t>(bodyB);
     if (!collides_[a] || !collides_[b] || !(dynamic_[a] || dynamic_[b])) return false;
+    if (filtered_ && !someShapesMayTouch(a, b)) return false;
     const std::pair<int, int> key = std::minmax(bodyA, bodyB);
     return !std::binary_search(connected_.begin(), connected_.end(), key);
+}
+
+bool PairTable::someShapesMayTouch(std::size_t a, std::size_t b) const {
+    for (const auto& ofA : filtersOf_[a])
+        for (const auto& ofB : filtersOf_[b])
+            if (mayTouch(ofA, ofB)) return true;
+    return false;
 }
 
 std::vector<PairTable::Example> PairTable::examples() const {
@@ -37,6 +51,7 @@ std::vector<PairTable::Example> PairTable::examples() const {
         const auto& ofB = materialsOf_[b];
         for (std::size_t i = 0; i < ofA.size(); ++i)
             for (std::size_t j = 0; j < ofB.size(); ++j) {
+                if (!shapesMayTouch(a, static_cast<int>(i), b, static_cast<int>(j))) continue;
                 Example example{ofA[i], ofB[j], {a, static_cast<int>(i)}, {b, static_cast<int>(j)}};
                 if (example.materialA > example.materialB) {
                     std::swap(example.materialA, example.materialB);
@@ -56,9 +71,11 @@ std::vector<PairTable::Example> PairTable::examples() const {
 bool PairTable::mayBounce(int body) const {
     for (int other = 0; other < static_cast<int>(materialsOf_.size()); ++other) {
         if (other == body || !mayCollide(body, other)) continue;
-        for (const int mine : materialsOf_[body])
-            for (const int theirs : materialsOf_[other])
-                if (coefficients(mine, theirs).restitution > 0.0) return true;
+        const auto &mine = materialsOf_[body], &theirs = materialsOf_[other];
+        for (int i = 0; i < static_cast<int>(mine.size()); ++i)
+            for (int j = 0; j < static_cast<int>(theirs.size()); ++j)
+                if (shapesMayTouch(body, i, other, j) && coefficients(mine[i], theirs[j]).restitution > 0.0)
+                    return true;
     }
     return false;
 }

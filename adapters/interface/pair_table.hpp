@@ -24,6 +24,12 @@ class PairTable {
 
     /// Same as scenario::mayCollide; bodies without shapes never collide.
     bool mayCollide(int bodyA, int bodyB) const;
+    /// True where the filters of two shapes let them touch, of bodies that may collide.
+    bool shapesMayTouch(int bodyA, int shapeA, int bodyB, int shapeB) const {
+        return !filtered_ || mayTouch(filtersOf_[bodyA][shapeA], filtersOf_[bodyB][shapeB]);
+    }
+    /// True where all shapes of each body have one filter, so that mayCollide decides for the shapes, too.
+    bool filtersByBody() const { return filtersByBody_; }
 
     /// One shape of one body.
     struct ShapeRef {
@@ -41,10 +47,15 @@ class PairTable {
     bool mayBounce(int body) const;
 
   private:
+    bool someShapesMayTouch(std::size_t a, std::size_t b) const;
+
     std::size_t materials_ = 0;
     std::vector<scenario::PairCoefficients> table_;
     std::vector<bool> collides_, dynamic_;
-    std::vector<std::vector<int>> materialsOf_;   ///< materials by body and shape
+    bool filtered_ = false;  ///< some filter is not the default
+    bool filtersByBody_ = true;
+    std::vector<std::vector<scenario::ContactFilter>> filtersOf_;  ///< by body and shape
+    std::vector<std::vector<int>> materialsOf_;                    ///< materials by body and shape
     std::vector<std::pair<int, int>> connected_;  ///< sorted pairs that a joint keeps from colliding
 };
 

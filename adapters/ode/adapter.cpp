@@ -47,6 +47,7 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
             c.joints.push_back(joint + std::string(".break"));
         c.contactImpulses = c.rollingFriction = c.torsionalFriction = c.surfaceVelocity = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
+        c.contactFilters = c.shapeFilters = true;
         c.libraryLacks = {
             {"cone", "ode/collision.h, geom class numbers: none is a cone"},
             {"static_friction", "ode/contact.h, dSurfaceParameters: mu, one coefficient in each direction"}};

@@ -97,6 +97,7 @@ void OdeWorld::nearPair(void* self, dGeomID a, dGeomID b) {
     auto& world = *static_cast<OdeWorld*>(self);
     const GeomTag &tagA = Geom::tagOf(a), &tagB = Geom::tagOf(b);
     if (tagA.body == tagB.body || !world.pairs_.mayCollide(tagA.body, tagB.body)) return;
+    if (!world.pairs_.shapesMayTouch(tagA.body, tagA.shape, tagB.body, tagB.shape)) return;
     if ((tagA.back && !Geom::meetsBacks(b)) || (tagB.back && !Geom::meetsBacks(a))) return;
     if (tagA.body < tagB.body)
         world.near_.emplace_back(a, b);

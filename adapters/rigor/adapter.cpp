@@ -129,6 +129,7 @@ Capabilities rigorCapabilities() {
     c.signedDistance = true;
     c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = c.staticFriction = true;
     c.rollingFriction = c.torsionalFriction = c.surfaceVelocity = true;
+    c.contactFilters = c.shapeFilters = true;
     return c;
 }
 

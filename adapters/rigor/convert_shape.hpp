@@ -8,6 +8,7 @@
 
 #include "adapters/interface/types.hpp"
 #include "engine/shapes/surface.hpp"
+#include "engine/state/shape_filter.hpp"
 
 namespace rigor::adapter {
 
@@ -107,6 +108,12 @@ engine::Shape<S> toEngineShape(const Geometry& geometry) {
         return toPlaneShape<R>(geometry);
     else
         return toSpaceShape<R>(geometry);
+}
+
+/// A shape that collides with all layers of a file has the engine's default mask.
+inline engine::ShapeFilter toEngineFilter(const scenario::ContactFilter& filter) {
+    const bool all = filter.collidesWith == scenario::kAllLayers;
+    return {filter.layers, all ? engine::ShapeFilter{}.mask : filter.collidesWith, filter.group};
 }
 
 }  // namespace rigor::adapter

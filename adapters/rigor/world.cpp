@@ -304,6 +304,7 @@ class RigorWorld final : public World, public StateSetting {
             shape.material = material(body.shapes[i].material);
             const scenario::SurfaceVelocity& surface = body.shapes[i].surfaceVelocity;
             shape.surfaceVelocity = {toEngineVec<S>(surface.linear), toEngineAng<S>(surface.angular)};
+            shape.filter = toEngineFilter(body.shapes[i].filter);
             const engine::ShapeId shapeId = world_.addShape(added, shape);
             indices_.shape.resize(shapeId.index + 1);
             indices_.shape[shapeId.index] = i;

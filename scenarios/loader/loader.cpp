@@ -140,33 +140,11 @@ Scenario readScenario(const JsonDocument& document, const std::string& file) {
     ReadContext context{file, &document, {}, 3};
     Scenario s;
     const Node root(document.value, "", context);
-    root.isObject({"rigor",
-                   "name",
-                   "title",
-                   "description",
-                   "isolates",
-                   "source",
-                   "tags",
-                   "dimension",
-                   "gravity",
-                   "duration",
-                   "dt",
-                   "materials",
-                   "pairs",
-                   "bodies",
-                   "generators",
-                   "joints",
-                   "forces",
-                   "events",
-                   "observe",
-                   "reference",
-                   "metrics",
-                   "accept",
-                   "known_deviations",
-                   "engines",
-                   "size",
-                   "bench",
-                   "time_limit"});
+    root.isObject({"rigor",   "name",      "title",     "description", "isolates", "source",
+                   "tags",    "dimension", "gravity",   "duration",    "dt",       "materials",
+                   "pairs",   "layers",    "bodies",    "generators",  "joints",   "forces",
+                   "events",  "observe",   "reference", "metrics",     "accept",   "known_deviations",
+                   "engines", "size",      "bench",     "time_limit"});
     std::deque<Json> made;  // generated nodes refer to it
     if (document.value.is_object()) {
         // Nothing else can be read if the dimension is missing.
@@ -174,6 +152,7 @@ Scenario readScenario(const JsonDocument& document, const std::string& file) {
         if (!context.problems.empty()) throw LoadError(std::move(context.problems));
         readHeader(root, s);
         readMaterials(root, s);
+        if (const auto n = root.find("layers")) readLayers(*n, s);
         if (context.problems.empty()) readBodies(root, s, made);
         if (context.problems.empty()) {
             if (const auto n = root.find("forces")) readForces(*n, s);

@@ -111,9 +111,10 @@ void checkStaticShapes(const Node& node, const Body& body) {
 
 Body readBody(const Node& node, const Scenario& scenario) {
     Body body;
-    node.isObject({"name", "type", "position", "orientation", "axis_angle_deg", "angle", "angle_deg",
-                   "velocity", "angular_velocity", "mass", "inertia", "center_of_mass", "shapes", "material",
-                   "collides", "damping", "gravity_scale"});
+    node.isObject({"name",    "type",           "position", "orientation",      "axis_angle_deg",
+                   "angle",   "angle_deg",      "velocity", "angular_velocity", "mass",
+                   "inertia", "center_of_mass", "shapes",   "material",         "collides",
+                   "damping", "gravity_scale",  "layers",   "collides_with",    "group"});
     if (!node.json().is_object()) return body;
     if (const auto name = node.require("name")) body.name = name->name();
     if (body.name == "world")
@@ -125,9 +126,11 @@ Body readBody(const Node& node, const Scenario& scenario) {
     if (const auto n = node.find("angular_velocity")) body.angularVelocity = n->angularVector();
     if (body.type == BodyType::Static && (norm(body.velocity) > 0.0 || norm(body.angularVelocity) > 0.0))
         node.problem("body.static", "a velocity on a static body", "no velocity, or \"type\": \"kinematic\"");
-    int material = scenario.materials.size() == 1 ? 0 : kNone;
-    if (const auto n = node.find("material")) material = readMaterialName(*n, scenario);
-    if (const auto n = node.find("shapes")) body.shapes = readShapes(*n, scenario, material);
+    Shape usual;
+    usual.material = scenario.materials.size() == 1 ? 0 : kNone;
+    if (const auto n = node.find("material")) usual.material = readMaterialName(*n, scenario);
+    usual.filter = readFilter(node, scenario, {});
+    if (const auto n = node.find("shapes")) body.shapes = readShapes(*n, scenario, usual);
     if (const auto n = node.find("collides")) body.collides = n->boolean();
     if (const auto n = node.find("damping")) readDamping(*n, body);
     if (const auto n = node.find("gravity_scale")) body.gravityScale = n->number(-1e6, 1e6);

@@ -12,11 +12,16 @@
 
 namespace rigor::scenario {
 
-std::vector<Shape> readShapes(const Node& list, const Scenario& scenario, int defaultMaterial);
+/// Shapes; `usual` has what a shape has that names no material, no layers, ...
+std::vector<Shape> readShapes(const Node& list, const Scenario& scenario, const Shape& usual);
 /// One shape in the world, without a material; for collision queries.
 Shape readPosedShape(const Node& node);
 /// "orientation", "axis_angle_deg", "angle", "angle_deg" of an object; identity without any.
 Quat readOrientation(const Node& object);
+/// The layers that a file names.
+void readLayers(const Node& list, Scenario& scenario);
+/// `filter` with what the keys "layers", "collides_with" and "group" of an object change.
+ContactFilter readFilter(const Node& node, const Scenario& scenario, ContactFilter filter);
 Body readBody(const Node& node, const Scenario& scenario);
 void readJoints(const Node& list, Scenario& scenario);
 void readForces(const Node& list, Scenario& scenario);

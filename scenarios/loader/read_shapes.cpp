@@ -170,14 +170,14 @@ std::string kindNames(int dimension) {
     return names;
 }
 
-Shape readShape(const Node& node, const Scenario& scenario, int defaultMaterial) {
-    Shape shape;
-    node.isObject({"sphere",          "circle",         "box",      "capsule",
-                   "cylinder",        "cone",           "hull",     "polygon",
-                   "half_space",      "half_plane",     "segment",  "chain",
-                   "triangle_mesh",   "height_field",   "material", "position",
-                   "orientation",     "axis_angle_deg", "angle",    "angle_deg",
-                   "surface_velocity"});
+Shape readShape(const Node& node, const Scenario& scenario, const Shape& usual) {
+    Shape shape = usual;
+    node.isObject({"sphere",           "circle",         "box",           "capsule",
+                   "cylinder",         "cone",           "hull",          "polygon",
+                   "half_space",       "half_plane",     "segment",       "chain",
+                   "triangle_mesh",    "height_field",   "material",      "position",
+                   "orientation",      "axis_angle_deg", "angle",         "angle_deg",
+                   "surface_velocity", "layers",         "collides_with", "group"});
     const Kind* found = nullptr;
     for (const Kind& kind : kKinds) {
         if (!node.has(kind.key)) continue;
@@ -196,7 +196,7 @@ Shape readShape(const Node& node, const Scenario& scenario, int defaultMaterial)
         shape.geometry = found->read(node[found->key]);
     if (const auto position = node.find("position")) shape.pose.position = position->vector();
     shape.pose.orientation = readOrientation(node);
-    shape.material = defaultMaterial;
+    shape.filter = readFilter(node, scenario, usual.filter);
     if (const auto material = node.find("material")) shape.material = readMaterialName(*material, scenario);
     if (const auto surface = node.find("surface_velocity")) {
         surface->isObject({"linear", "angular"});
@@ -248,14 +248,14 @@ Quat readOrientation(const Node& object) {
     return {};
 }
 
-std::vector<Shape> readShapes(const Node& list, const Scenario& scenario, int defaultMaterial) {
+std::vector<Shape> readShapes(const Node& list, const Scenario& scenario, const Shape& usual) {
     std::vector<Shape> shapes;
-    for (const Node& item : list.items()) shapes.push_back(readShape(item, scenario, defaultMaterial));
+    for (const Node& item : list.items()) shapes.push_back(readShape(item, scenario, usual));
     return shapes;
 }
 
 Shape readPosedShape(const Node& node) {
-    return readShape(node, Scenario{}, 0);
+    return readShape(node, Scenario{}, {});
 }
 
 int readMaterialName(const Node& node, const Scenario& scenario) {

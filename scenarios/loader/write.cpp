@@ -47,6 +47,7 @@ class Writer {
                                      {"impulse", vector(e.impulse)},
                                      {"angular_impulse", angular(e.angularImpulse)}});
         for (const int b : s_.observed) out["observe"].push_back(bodyName(b));
+        if (!s_.layers.empty()) out["layers"] = std::vector(s_.layers.begin() + 1, s_.layers.end());
         if (s_.size) out["size"] = *s_.size;
         if (s_.bench) out["bench"] = bench(*s_.bench);
         return out;
@@ -148,7 +149,19 @@ class Writer {
         if (s.surfaceVelocity.moves())
             out["surface_velocity"] = {{"linear", vector(s.surfaceVelocity.linear)},
                                        {"angular", angular(s.surfaceVelocity.angular)}};
+        filter(out, s.filter);
         return out;
+    }
+    Json layerNames(std::uint32_t bits) const {
+        Json names = Json::array();
+        for (std::size_t k = 0; k < s_.layers.size(); ++k)
+            if ((bits >> k) & 1U) names.push_back(s_.layers[k]);
+        return names;
+    }
+    void filter(Json& out, const ContactFilter& f) const {
+        if (f.layers != ContactFilter{}.layers) out["layers"] = layerNames(f.layers);
+        if (f.collidesWith != kAllLayers) out["collides_with"] = layerNames(f.collidesWith);
+        if (f.group != 0) out["group"] = f.group;
     }
     static const char* typeName(BodyType type) {
         if (type == BodyType::Static) return "static";

@@ -114,11 +114,24 @@ int findBody(const Scenario& scenario, const std::string& name) {
     return kNone;
 }
 
+namespace {
+
+bool someShapesMayTouch(const Body& a, const Body& b) {
+    if (a.shapes.empty() || b.shapes.empty()) return true;
+    for (const Shape& ofA : a.shapes)
+        for (const Shape& ofB : b.shapes)
+            if (mayTouch(ofA, ofB)) return true;
+    return false;
+}
+
+}  // namespace
+
 bool mayCollide(const Scenario& scenario, int bodyA, int bodyB) {
     const Body& a = scenario.bodies[bodyA];
     const Body& b = scenario.bodies[bodyB];
     if (bodyA == bodyB || !a.collides || !b.collides) return false;
     if (a.type != BodyType::Dynamic && b.type != BodyType::Dynamic) return false;
+    if (!someShapesMayTouch(a, b)) return false;
     return std::none_of(scenario.joints.begin(), scenario.joints.end(), [&](const Joint& joint) {
         const bool connects =
             (joint.bodyA == bodyA && joint.bodyB == bodyB) || (joint.bodyA == bodyB && joint.bodyB == bodyA);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "scenarios/model/bench.hpp"
+#include "scenarios/model/contact_filter.hpp"
 #include "scenarios/model/math.hpp"
 
 namespace rigor::scenario {
@@ -105,6 +106,7 @@ struct Shape {
     Pose pose;         ///< shape frame in the body frame
     int material = 0;  ///< index into Scenario::materials
     SurfaceVelocity surfaceVelocity = {};
+    ContactFilter filter = {};
 };
 
 // -------------------------------------------------------------------------------------------- materials
@@ -286,6 +288,7 @@ struct Scenario {
     std::vector<double> timeSteps;  ///< [s], in the order of the file
     std::vector<Material> materials;
     std::vector<MaterialPair> pairs;
+    std::vector<std::string> layers;  ///< names, "default" first; empty for a file that names none
     std::vector<Body> bodies;
     std::vector<Joint> joints;
     std::vector<Force> forces;
@@ -311,9 +314,13 @@ PairCoefficients pairCoefficients(const Scenario& scenario, int materialA, int m
 /// Index of the named body, or kNone.
 int findBody(const Scenario& scenario, const std::string& name);
 
-/// True where contacts between the two bodies are possible: both collide, at least one is dynamic, and no
-/// joint with collideConnected = false connects them.
+/// True where contacts between the two bodies are possible: both collide, at least one is dynamic, no joint with
+/// collideConnected = false connects them, and the filters of some two shapes agree (where both have shapes).
 bool mayCollide(const Scenario& scenario, int bodyA, int bodyB);
+/// True where the filters of two shapes of such bodies agree.
+inline bool mayTouch(const Shape& a, const Shape& b) {
+    return mayTouch(a.filter, b.filter);
+}
 
 /// Mass, centre of mass and inertia from the shapes, each of the density of its material [kg/m^3] (2D:
 /// [kg/m^2]). `dimension` 2 takes areas. Throws std::invalid_argument for shapes without volume (half-space,

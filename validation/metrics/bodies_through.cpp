@@ -28,6 +28,7 @@ struct Piece {
 struct Sheet {
     int body = 0;
     Pose local;
+    ContactFilter filter;
     std::vector<Piece> pieces;
     Vec3 low, high;  ///< box around the pieces
     Vec3 shift() const {
@@ -82,7 +83,7 @@ std::vector<Sheet> sheetsOf(const Scenario& scenario) {
     std::vector<Sheet> sheets;
     for (int body = 0; body < static_cast<int>(scenario.bodies.size()); ++body)
         for (const Shape& shape : scenario.bodies[body].shapes) {
-            Sheet sheet{body, shape.pose, std::visit(Pieces{}, shape.geometry), {}, {}};
+            Sheet sheet{body, shape.pose, shape.filter, std::visit(Pieces{}, shape.geometry), {}, {}};
             if (sheet.pieces.empty()) continue;
             sheet.low = sheet.high = sheet.pieces[0].corners[0];
             for (const Piece& piece : sheet.pieces)
@@ -145,6 +146,11 @@ double timeThrough(const MetricInput& input, const Sheet& sheet, int body) {
     return since;
 }
 
+bool holds(const Sheet& sheet, const Body& body) {
+    return std::all_of(body.shapes.begin(), body.shapes.end(),
+                       [&](const Shape& shape) { return mayTouch(sheet.filter, shape.filter); });
+}
+
 }  // namespace
 
 std::vector<MetricValue> bodiesThrough(const MetricInput& input) {
@@ -155,7 +161,7 @@ std::vector<MetricValue> bodiesThrough(const MetricInput& input) {
         if (!isDynamic(input.scenario, body)) continue;
         double since = -1.0;
         for (const Sheet& sheet : sheets)
-            if (mayCollide(input.scenario, sheet.body, body))
+            if (mayCollide(input.scenario, sheet.body, body) && holds(sheet, input.scenario.bodies[body]))
                 since = std::max(since, timeThrough(input, sheet, body));
         if (since < 0.0) continue;
         count += 1.0;

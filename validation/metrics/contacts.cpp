@@ -106,7 +106,8 @@ std::vector<MetricValue> overlapMax(const MetricInput& input) {
         for (int b = a + 1; b < count; ++b) {
             if (!mayCollide(input.scenario, a, b)) continue;
             for (const auto& sa : bodies[a].shapes)
-                for (const auto& sb : bodies[b].shapes)
+                for (const auto& sb : bodies[b].shapes) {
+                    if (!mayTouch(sa, sb)) continue;
                     for (std::size_t k = 0; k < input.trajectory.frames(); ++k) {
                         const auto pair = closedFormPair(
                             sa.geometry, poseOf(input.trajectory.state(k, a), sa), sb.geometry,
@@ -117,6 +118,7 @@ std::vector<MetricValue> overlapMax(const MetricInput& input) {
                             if (isDynamic(input.scenario, body))
                                 worst[body].add(overlap, input.trajectory.times[k]);
                     }
+                }
         }
     return bodyRows(input, worst);
 }

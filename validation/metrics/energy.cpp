@@ -55,6 +55,7 @@ bool contactsAreLossless(const Scenario& scenario) {
             if (!mayCollide(scenario, a, b)) continue;
             for (const auto& sa : scenario.bodies[a].shapes)
                 for (const auto& sb : scenario.bodies[b].shapes) {
+                    if (!mayTouch(sa, sb)) continue;
                     const auto pair = pairCoefficients(scenario, sa.material, sb.material);
                     if (pair.friction > 0.0 || pair.restitution < 1.0 || pair.rollingFriction > 0.0 ||
                         pair.torsionalFriction > 0.0)

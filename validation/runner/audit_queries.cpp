@@ -97,7 +97,8 @@ std::vector<Candidate> candidates(const Scenario& s) {
         for (int b = a + 1; b < bodies; ++b) {
             if (!mayCollide(s, a, b)) continue;
             for (int i = 0; i < shapes(a); ++i)
-                for (int j = 0; j < shapes(b); ++j) pairs.push_back({a, b, i, j});
+                for (int j = 0; j < shapes(b); ++j)
+                    if (mayTouch(s.bodies[a].shapes[i], s.bodies[b].shapes[j])) pairs.push_back({a, b, i, j});
         }
     return pairs;
 }

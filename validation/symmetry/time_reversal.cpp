@@ -26,6 +26,7 @@ bool contactsLose(const Scenario& s) {
             if (!mayCollide(s, a, b)) continue;
             for (const Shape& x : s.bodies[a].shapes)
                 for (const Shape& y : s.bodies[b].shapes) {
+                    if (!mayTouch(x, y)) continue;
                     const PairCoefficients pair = pairCoefficients(s, x.material, y.material);
                     if (pair.friction > 0.0 || pair.restitution < 1.0 || pair.rollingFriction > 0.0 ||
                         pair.torsionalFriction > 0.0)

@@ -23,7 +23,12 @@ Scenario crowd(unsigned seed) {
         scenario::Body body;
         body.type = static_cast<scenario::BodyType>(upTo(3));
         body.collides = upTo(4) != 0;
-        for (int k = upTo(3); k > 0; --k) body.shapes.push_back({scenario::Sphere{1.0}, {}, upTo(4)});
+        for (int k = upTo(3); k > 0; --k) {
+            body.shapes.push_back({scenario::Sphere{1.0}, {}, upTo(4)});
+            if (seed % 2 == 0) continue;
+            const auto bits = [&] { return static_cast<std::uint32_t>(1 + upTo(7)); };
+            body.shapes.back().filter = {bits(), bits(), upTo(5) - 2};
+        }
         s.bodies.push_back(body);
     }
     for (int i = 0; i < 4; ++i) {
@@ -65,6 +70,7 @@ TEST(PairTable, ExamplesNameShapesOfTheirMaterialsThatMayTouch) {
         for (const auto& m : table.examples()) {
             EXPECT_LE(m.materialA, m.materialB);
             EXPECT_TRUE(table.mayCollide(m.a.body, m.b.body));
+            EXPECT_TRUE(mayTouch(s.bodies[m.a.body].shapes[m.a.shape], s.bodies[m.b.body].shapes[m.b.shape]));
             const auto materialOf = [&](const PairTable::ShapeRef& r) {
                 return s.bodies[r.body].shapes[r.shape].material;
             };

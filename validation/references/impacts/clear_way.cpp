@@ -22,13 +22,14 @@ constexpr double kTolerated = 2e-3;  // overlap beside the size: scenes start up
 struct Inner {
     Vec3 center;
     double radius = 0.0;
+    scenario::ContactFilter filter;
 };
 
 std::vector<Inner> innerOf(const Body& body, const Pose& pose, int dimension) {
     std::vector<Inner> result;
     for (const auto& shape : body.shapes) {
         const auto add = [&](Vec3 local, double radius) {
-            result.push_back({pose * (shape.pose * local), radius});
+            result.push_back({pose * (shape.pose * local), radius, shape.filter});
         };
         if (const auto* s = std::get_if<scenario::Sphere>(&shape.geometry)) add({}, s->radius);
         if (const auto* s = std::get_if<scenario::Capsule>(&shape.geometry)) add({}, s->radius);
@@ -53,6 +54,7 @@ std::vector<Inner> innerOf(const Body& body, const Pose& pose, int dimension) {
 double depthIn(const Body& body, const Pose& pose, const Inner& ball, int dimension) {
     double deepest = -1e300;
     for (const auto& shape : body.shapes) {
+        if (!mayTouch(shape.filter, ball.filter)) continue;
         const Vec3 inBody = rotateInverse(pose.orientation, ball.center - pose.position);
         const Vec3 p = rotateInverse(shape.pose.orientation, inBody - shape.pose.position);
         double distance = 1e300;

@@ -80,6 +80,7 @@ class Collector {
         first_ = out_.size();
         for (const auto& sa : one.shapes)
             for (const auto& sb : other.shapes) {
+                if (!mayTouch(sa, sb)) continue;
                 const Core ca = coreOf(one, sa, scenario_.dimension),
                            cb = coreOf(other, sb, scenario_.dimension);
                 friction_ = holdingFriction(scenario::pairCoefficients(scenario_, sa.material, sb.material));

@@ -149,7 +149,13 @@ TEST_F(Audit, WhatAnAuditorLacksIsSaid) {
 TEST_F(Audit, SceneWithoutPairsIsNotAudited) {
     auto s = fixtures::load(fixtures::crossingBalls()).first;
     EXPECT_TRUE(hasAuditablePairs(s));
-    for (auto& b : s.bodies) b.collides = false;
+    for (auto& b : s.bodies)
+        for (auto& shape : b.shapes) shape.filter.group = -1;
+    EXPECT_FALSE(hasAuditablePairs(s));
+    for (auto& b : s.bodies) {
+        for (auto& shape : b.shapes) shape.filter = {};
+        b.collides = false;
+    }
     EXPECT_FALSE(hasAuditablePairs(s));
 }
 
