@@ -21,6 +21,8 @@ typename S::Real coreBoundingRadius(const Shape<S>& shape, const Pose<S>& local)
             } else if constexpr (std::is_same_v<Kind, Capsule<S>>) {
                 const Vec end = rotate(local.q, Vec(s.halfLength * Vec::Unit(1)));
                 return std::max((local.p + end).norm(), (local.p - end).norm());
+            } else if constexpr (std::is_same_v<Kind, Ellipsoid<S>>) {
+                return local.p.norm() + s.halfAxes.maxCoeff();
             } else if constexpr (std::is_same_v<Kind, HalfSpace<S>>) {
                 return 0;  // static
             } else if constexpr (std::is_same_v<Kind, Hull<S>>) {

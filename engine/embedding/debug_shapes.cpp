@@ -97,6 +97,13 @@ class ShapeOutline {
         circle(Vec(-along), Vec::Unit(0), Vec::Unit(2), cone.radius);
         for (const Vec& out : quarters(cone.radius)) line(Vec(out - along), along);
     }
+    void operator()(const Ellipsoid<S>& ellipsoid) const {
+        const Vec h = ellipsoid.halfAxes;
+        for (int axis = 0; axis < S::dim; ++axis) {
+            const int i = (axis + 1) % S::dim, k = (axis + 2) % S::dim;
+            ellipse(Vec(h[i] * Vec::Unit(i)), Vec(h[k] * Vec::Unit(k)));
+        }
+    }
     void operator()(const Segment<S>& segment) const { line(segment.a, segment.b); }
     void operator()(const Triangle<S>& triangle) const {
         for (std::size_t i = 0; i < 3; ++i) line(triangle.v[i], triangle.v[(i + 1) % 3]);
@@ -123,6 +130,8 @@ class ShapeOutline {
     void line(const Vec& from, const Vec& to) const {
         sink_.line(toWorld<S>(pose_, from), toWorld<S>(pose_, to), DebugKind::Outline, body_);
     }
+    /// About the origin, through u and v.
+    void ellipse(const Vec& u, const Vec& v) const { arc(Vec::Zero(), u, v, Real(1), Real(1)); }
     void circle(const Vec& center, const Vec& u, const Vec& v, Real radius) const {
         arc(center, u, v, radius, Real(1));
     }

@@ -78,10 +78,9 @@ void finishByDescent(const Minkowski<S>& D, CoreContact<S>& r) {
     placeFoot<S>(query, D, D.innerPoint(), r);
 }
 
-}  // namespace
-
+/// By support points alone.
 template <class S>
-CoreContact<S> closestCores(const Minkowski<S>& D) {
+CoreContact<S> supportedCores(const Minkowski<S>& D) {
     GjkResult<S> apart = gjk<S>(D, D.translation());
     CoreContact<S> r;
     r.iterations = apart.iterations;
@@ -111,6 +110,15 @@ CoreContact<S> closestCores(const Minkowski<S>& D) {
         r.onB = inside.simplex.onB();
         if (!inside.converged) finishByDescent<S>(D, r);
     }
+    return r;
+}
+
+}  // namespace
+
+template <class S>
+CoreContact<S> closestCores(const Minkowski<S>& D) {
+    CoreContact<S> r = supportedCores<S>(D);
+    refineCurved(D, r);
     return r;
 }
 

@@ -103,6 +103,7 @@ void keepNormal(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, con
     contact.normal = found.normal;
     contact.distance = -found.support;
     placeFoot<S>(query, D, D.innerPoint(), contact);
+    refineCurved(D, contact);
 }
 
 #define INSTANTIATE(S)                                                                                \

@@ -57,6 +57,8 @@ class Minkowski {
         p.w = p.a - p.b;
         return p;
     }
+    const Shape<S>& shapeA() const { return a_; }
+    const Shape<S>& shapeB() const { return b_; }
     /// B's frame in the frame of A.
     const typename S::Mat& rotation() const { return rotation_; }
     const V& translation() const { return translation_; }
@@ -109,6 +111,13 @@ struct CoreContact {
 /// Closest points of the cores by GJK, and by EPA where the cores overlap.
 template <class S>
 CoreContact<S> closestCores(const Minkowski<S>& D);
+
+/// Where one of the shapes is an ellipsoid: follows the normal to a minimum of the support of D, to rounding
+/// (3d/curved_normal.cpp). Other contacts stay as they are, and those of 2D.
+template <class R>
+void refineCurved(const Minkowski<Space<R, 3>>& D, CoreContact<Space<R, 3>>& contact);
+template <class R>
+void refineCurved(const Minkowski<Space<R, 2>>&, CoreContact<Space<R, 2>>&) {}
 
 /// Puts the penetration vector that `last`, the normal of the last step (frame of A), leads to in the place
 /// of the contact's, where that one is no shorter than by kKeep of the smaller shape (keep_normal.cpp).

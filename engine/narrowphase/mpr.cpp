@@ -125,6 +125,7 @@ bool portalContact(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, 
     contact.normal = query.normal();
     contact.distance = -query.least();
     placeFoot<S>(query, D, inner, contact);
+    refineCurved(D, contact);
     contact.iterations = cores.queries() + grown.queries();
     contact.converged = true;
     return true;

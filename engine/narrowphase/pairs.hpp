@@ -51,6 +51,7 @@ RIGOR_PAIR(3, Sphere, Cylinder)
 RIGOR_PAIR(3, Sphere, Cone)
 RIGOR_PAIR(3, Cylinder, HalfSpace)
 RIGOR_PAIR(3, Cone, HalfSpace)
+RIGOR_PAIR(3, Ellipsoid, HalfSpace)
 #undef RIGOR_PAIR
 
 /// Any two convex shapes: the contact normal of the closest points, the points where supporting features meet

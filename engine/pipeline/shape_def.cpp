@@ -45,6 +45,10 @@ bool valid(const Cone<S>& s) {
     return validSize(s.radius) && validSize(s.halfLength);
 }
 template <class S>
+bool valid(const Ellipsoid<S>& s) {
+    return s.halfAxes.allFinite() && s.halfAxes.minCoeff() > 0;
+}
+template <class S>
 bool valid(const Triangle<S>& s) {
     return s.v[0].allFinite() && s.v[1].allFinite() && s.v[2].allFinite() &&
            validSize((s.v[1] - s.v[0]).cross(s.v[2] - s.v[0]).norm());

@@ -97,6 +97,8 @@ BoundingSphere<S> exactSphere(const Kind& s) {
         return {Vec::Zero(), s.halfLength + s.radius};
     } else if constexpr (std::is_same_v<Kind, Hull<S>>) {
         return sphereOfHull(*s.data);
+    } else if constexpr (std::is_same_v<Kind, Ellipsoid<S>>) {
+        return {S::Vec::Zero(), s.halfAxes.maxCoeff()};
     } else if constexpr (std::is_same_v<Kind, Cone<S>>) {
         return sphereOfCone(s);
     } else {

@@ -38,6 +38,8 @@ typename S::Real inscribedRadiusOf(const Shape<S>& shape) {
                 return s.radius;
             } else if constexpr (std::is_same_v<Kind, Box<S>>) {
                 return s.halfExtents.minCoeff();
+            } else if constexpr (std::is_same_v<Kind, Ellipsoid<S>>) {
+                return s.halfAxes.minCoeff();
             } else if constexpr (std::is_same_v<Kind, HalfSpace<S>>) {
                 return std::numeric_limits<Real>::max();
             } else if constexpr (std::is_same_v<Kind, Hull<S>>) {

@@ -7,6 +7,7 @@
 //     side; the last way in before the first way out is the hit [CyrusBeck1978]
 //   sphere, side of capsule, cylinder, cone: |P x|^2 <= r(y)^2, a quadratic in t with roots
 //     q = -(b + sign(b) sqrt(b^2 - a c)),  t = q / a, c / q, which loses no digits to cancellation
+//   ellipsoid: the unit sphere in coordinates scaled by the half axes
 //   triangle: o + t d = v0 + u e1 + w e2, by Cramer's rule [MollerTrumbore1997]; the ray is between its
 //     sides where d . (a x b) has one sign for all of them, a -> b from o
 //   segment: the same with one edge
@@ -215,6 +216,15 @@ void meet(const Ray<S>& ray, const Cone<S>& s, Found<S>& found) {
         const V radial = rho > 0 ? V(across<S>(x) / rho) : V(V::Zero());
         found.consider(t, V((radial + k * V::UnitY()).normalized()));
     }
+}
+
+/// In the coordinates x / h it is the unit sphere, with the same fractions t; its normals are along x / h^2.
+template <class S>
+void meet(const Ray<S>& ray, const Ellipsoid<S>& s, Found<S>& found) {
+    using V = typename S::Vec;
+    const Ray<S> scaled{ray.o.cwiseQuotient(s.halfAxes), ray.d.cwiseQuotient(s.halfAxes)};
+    meetBall<S>(scaled, V::Zero(), 1, found);
+    if (found.t <= 1) found.normal = found.normal.cwiseQuotient(s.halfAxes).normalized();
 }
 
 /// True where the ray's line passes a triangle, by signs that its neighbours agree with.

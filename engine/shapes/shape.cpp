@@ -67,6 +67,12 @@ typename S::Vec supportOf(const Cone<S>& s, const typename S::Vec& d) {
     return rimPoint<S>(s.radius, -s.halfLength, d);
 }
 
+/// The point with the outward normal d: E^2 d / |E d|, E the diagonal matrix of the half axes.
+template <class S>
+typename S::Vec supportOf(const Ellipsoid<S>& s, const typename S::Vec& d) {
+    return s.halfAxes.cwiseProduct(unitOr<S>(s.halfAxes.cwiseProduct(d)));
+}
+
 template <class S>
 typename S::Vec supportOf(const Segment<S>& s, const typename S::Vec& d) {
     return s.b.dot(d) > s.a.dot(d) ? s.b : s.a;
@@ -133,6 +139,13 @@ Aabb<S> boxOf(const Cone<S>& s, const Pose<S>& X) {
     const Vec axis = rotate(X.q, Vec(Vec::UnitY())), apex = s.halfLength * axis;
     const Vec r = s.radius * discExtents<S>(axis);
     return {X.p + apex.cwiseMin(Vec(-apex - r)), X.p + apex.cwiseMax(Vec(-apex + r))};
+}
+/// Half extents sqrt(sum_j (m_ij h_j)^2): the support along each axis.
+template <class S>
+Aabb<S> boxOf(const Ellipsoid<S>& s, const Pose<S>& X) {
+    const typename S::Mat m = toMatrix(X.q) * s.halfAxes.asDiagonal();
+    const typename S::Vec r = m.rowwise().norm();
+    return {X.p - r, X.p + r};
 }
 /// Unbounded but along an axis that the normal is exactly parallel to.
 template <class S>
@@ -228,6 +241,10 @@ struct NameOf {
     template <class S>
     const char* operator()(const Cone<S>&) const {
         return "cone";
+    }
+    template <class S>
+    const char* operator()(const Ellipsoid<S>&) const {
+        return "ellipsoid";
     }
     template <class S>
     const char* operator()(const Segment<S>&) const {

@@ -59,6 +59,12 @@ struct Cone {
     typename S::Real radius, halfLength;
 };
 
+/// Solid ellipsoid, 3D only: the half axes along the local axes, each > 0 [m].
+template <class S>
+struct Ellipsoid {
+    typename S::Vec halfAxes;
+};
+
 /// Two-sided segment from a to b [m], a != b; 2D only, static bodies only.
 template <class S>
 struct Segment {
@@ -107,7 +113,7 @@ template <class R>
 struct ShapeTypes<Space<R, 3>> {
     using S = Space<R, 3>;
     using Variant = std::variant<Sphere<S>, Box<S>, Capsule<S>, HalfSpace<S>, Hull<S>, Cylinder<S>, Cone<S>,
-                                 Triangle<S>, TriangleMesh<S>, HeightField<S>>;
+                                 Ellipsoid<S>, Triangle<S>, TriangleMesh<S>, HeightField<S>>;
 };
 template <class S>
 using Shape = typename ShapeTypes<S>::Variant;

@@ -85,6 +85,7 @@ TYPED_TEST(DebugLinesTest, OutlinesFillTheBoundsOfTheirShapes) {
     if constexpr (S::dim == 3) {
         expectOnSurface<S>(Cylinder<S>{R(0.3), R(0.5)}, 1e-5);
         expectOnSurface<S>(Cone<S>{R(0.3), R(0.5)}, 1e-5);
+        expectOnSurface<S>(Ellipsoid<S>{{R(0.5), R(0.2), R(0.3)}}, 1e-5);
     }
 }
 

@@ -114,6 +114,11 @@ void featureOf(const Cylinder<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& ou
 }
 
 template <class R>
+void featureOf(const Ellipsoid<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
+    out.add(support<S3<R>>(Shape<S3<R>>(s), d), 0);
+}
+
+template <class R>
 void featureOf(const Cone<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     if (d.y() < -kFeatureFlat<R>) {
         addDisc<R>(s.radius, -s.halfLength, R(-1), d, 0, out);

@@ -134,8 +134,11 @@ Shape<S> shapeOfKind(int kind) {
     constexpr std::size_t known = 5;
     if constexpr (S::dim == 3) {
         const Shape<S> more[] = {
-            Cylinder<S>{R(0.4), R(0.5)}, Cone<S>{R(0.5), R(0.6)},
-            Triangle<S>{{vec<S>(-0.6, -0.1, -0.5), vec<S>(0.7, 0, -0.3), vec<S>(0, 0.2, 0.7)}}, roof<S>(),
+            Cylinder<S>{R(0.4), R(0.5)},
+            Cone<S>{R(0.5), R(0.6)},
+            Ellipsoid<S>{vec<S>(0.6, 0.3, 0.45)},
+            Triangle<S>{{vec<S>(-0.6, -0.1, -0.5), vec<S>(0.7, 0, -0.3), vec<S>(0, 0.2, 0.7)}},
+            roof<S>(),
             bumps<S>()};
         static_assert(std::size(more) + known == std::variant_size_v<Shape<S>>, "a kind without an example");
         return more[static_cast<std::size_t>(kind) - known];

@@ -7,6 +7,7 @@
 //   capsule: a cylinder and two half spheres, whose centroids lie 3r/8 beyond the ends
 //   cone: centroid a quarter of its height over the base; about it 3/10 m r^2 along the axis, 3/20 m r^2 +
 //     3/80 m (2h)^2 across [Goldstein2002, ch. 5].
+//   ellipsoid: 4/3 pi a b c; m/5 (b^2 + c^2) about the axis a
 #include <numbers>
 #include <stdexcept>
 
@@ -59,6 +60,12 @@ Moments moments(const Cone<Space<R, 3>>& s) {
     const double r = s.radius, h = s.halfLength, volume = 2.0 / 3.0 * std::numbers::pi * r * r * h;
     const double across = 0.15 * volume * (r * r + h * h);
     return {volume, V(0, -0.5 * h, 0), diagonal(across, 0.3 * volume * r * r, across)};
+}
+template <class R>
+Moments moments(const Ellipsoid<Space<R, 3>>& s) {
+    const V h = s.halfAxes.template cast<double>(), q = h.cwiseProduct(h);
+    const double volume = 4.0 / 3.0 * std::numbers::pi * h.prod(), k = 0.2 * volume;
+    return {volume, V::Zero(), diagonal(k * (q.y() + q.z()), k * (q.z() + q.x()), k * (q.x() + q.y()))};
 }
 template <class R>
 Moments moments(const Hull<Space<R, 3>>& s) {

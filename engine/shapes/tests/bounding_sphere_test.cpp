@@ -69,6 +69,7 @@ TYPED_TEST(BoundingSphereTest, IsTheSmallestAroundEachShape) {
     }
     if constexpr (S::dim == 3) {
         expectSmallest<S>(Cylinder<S>{Real(0.4), Real(0.3)}, "cylinder");
+        expectSmallest<S>(Ellipsoid<S>{{Real(0.3), Real(0.8), Real(0.5)}}, "ellipsoid");
         expectSmallest<S>(Cone<S>{Real(0.3), Real(0.8)}, "tall cone");
         expectSmallest<S>(Cone<S>{Real(0.9), Real(0.2)}, "flat cone");
     }

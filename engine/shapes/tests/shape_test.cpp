@@ -48,6 +48,8 @@ bool contains(const Shape<S>& shape, const typename S::Vec& x) {
         const double across = std::hypot(static_cast<double>(x.x()), static_cast<double>(x.z()));
         if (const auto* c = std::get_if<Cylinder<S>>(&shape))
             return across <= c->radius && std::abs(x.y()) <= c->halfLength;
+        if (const auto* e = std::get_if<Ellipsoid<S>>(&shape))
+            return x.cwiseQuotient(e->halfAxes).norm() <= 1;
         if (const auto* c = std::get_if<Cone<S>>(&shape))
             return std::abs(x.y()) <= c->halfLength &&
                    across <= c->radius * (c->halfLength - x.y()) / (2 * c->halfLength);
@@ -81,6 +83,7 @@ std::vector<Shape<S>> solids() {
     if constexpr (S::dim == 3) {
         all.push_back(Cylinder<S>{R(0.6), R(0.4)});
         all.push_back(Cone<S>{R(0.7), R(0.6)});
+        all.push_back(Ellipsoid<S>{vec<S>(0.7, 0.3, 0.5)});
     }
     std::size_t solid = 0;  // every kind with a volume is in the list
     [&]<std::size_t... I>(std::index_sequence<I...>) {
