@@ -63,6 +63,7 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
         c.rollingFriction = c.torsionalFriction = c.surfaceVelocity = true;
         c.contactFilters = c.shapeFilters = true;
         c.libraryLacks = {
+            {"ellipsoid", "btBroadphaseProxy.h, enum BroadphaseNativeTypes: none is an ellipsoid"},
             {"distance", "btTypedConstraint.h, enum btTypedConstraintType: none keeps a distance"},
             {"static_friction", "btCollisionObject.h, setFriction: the one coefficient of sliding"}};
         return c;

@@ -189,12 +189,13 @@ TEST_P(Build, WhatTheEngineLacksIsRefusedByName) {
         {is2d() ? "half_plane" : "half_space", HalfSpace{}},
         {"segment", Segment{{-1, 0, 0}, {1, 0, 0}}},
         {"chain", Chain{{{-1, 0, 0}, {0, 0, 0}, {1, 1, 0}}, false}},
+        {"ellipsoid", scenario::Ellipsoid{{0.2, 0.3, 0.4}}},
         {"triangle_mesh", mesh},
         {"height_field", HeightField{2, 2, 1, 1, {0, 0, 0, 1}, 1}}};
     for (const auto& [name, geometry] : shapes) {
         const std::string kind = name;
-        const bool only3d =
-            kind == "cylinder" || kind == "cone" || kind == "triangle_mesh" || kind == "height_field";
+        const bool only3d = kind == "cylinder" || kind == "cone" || kind == "ellipsoid" ||
+                            kind == "triangle_mesh" || kind == "height_field";
         if (is2d() ? only3d : kind == "segment" || kind == "chain") continue;
         SCOPED_TRACE(name);
         Scenario s = scene();

@@ -22,8 +22,8 @@ class FclEngine final : public adapter::Engine {
         c.collision = c.broadPhase = true;
         c.dimensions = {3};
         c.planar = true;
-        c.shapes = {"sphere", "box",        "capsule", "cylinder", "cone",
-                    "hull",   "half_space", "circle",  "polygon",  "half_plane"};
+        c.shapes = {"sphere",     "box",    "capsule", "cylinder",   "cone",     "hull",
+                    "half_space", "circle", "polygon", "half_plane", "ellipsoid"};
         c.signedDistance = true;
         c.libraryLacks = {
             {"dynamics", "README: \"FCL is a library for performing three types of proximity queries\""}};

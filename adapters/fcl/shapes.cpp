@@ -10,6 +10,7 @@
 #include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
 
@@ -33,6 +34,9 @@ struct ToGeometry {
     std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Box& b) {
         const Vec3& h = b.halfExtents;
         return std::make_shared<fcl::Boxd>(2 * h.x, 2 * h.y, 2 * h.z);
+    }
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Ellipsoid& e) {
+        return std::make_shared<fcl::Ellipsoidd>(e.halfAxes.x, e.halfAxes.y, e.halfAxes.z);
     }
     std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Capsule& c) {
         alongZ = true;

@@ -74,6 +74,10 @@ struct CheckGeometry {
         checkPositive(where + ".half_extents.y", b.halfExtents.y);
         if (dimension == 3) checkPositive(where + ".half_extents.z", b.halfExtents.z);
     }
+    void operator()(const scenario::Ellipsoid& e) const {
+        for (const double axis : {e.halfAxes.x, e.halfAxes.y, e.halfAxes.z})
+            checkPositive(where + ".half_axes", axis);
+    }
     template <class Round>
     requires requires(Round r) {
         r.radius;

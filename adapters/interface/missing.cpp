@@ -16,7 +16,7 @@ std::vector<std::string> shapesOf(int dimension) {
         geometries.insert(geometries.end(), {scenario::Segment{}, scenario::Chain{}});
     else
         geometries.insert(geometries.end(), {scenario::Cylinder{}, scenario::Cone{}, scenario::TriangleMesh{},
-                                             scenario::HeightField{}});
+                                             scenario::HeightField{}, scenario::Ellipsoid{}});
     std::vector<std::string> names;
     for (const Geometry& geometry : geometries) names.emplace_back(geometryName(geometry, dimension));
     return names;

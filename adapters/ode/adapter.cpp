@@ -49,6 +49,7 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.contactFilters = c.shapeFilters = true;
         c.libraryLacks = {
+            {"ellipsoid", "ode/collision.h, geom class numbers: none is an ellipsoid"},
             {"cone", "ode/collision.h, geom class numbers: none is a cone"},
             {"static_friction", "ode/contact.h, dSurfaceParameters: mu, one coefficient in each direction"}};
         return c;

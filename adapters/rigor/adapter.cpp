@@ -120,9 +120,9 @@ Capabilities rigorCapabilities() {
     c.dynamics = c.collision = c.broadPhase = true;
     c.queryOptions = {"precision"};
     c.dimensions = {2, 3};
-    c.shapes = {"sphere",  "circle", "box",           "capsule",     "cylinder",
-                "cone",    "hull",   "polygon",       "half_space",  "half_plane",
-                "segment", "chain",  "triangle_mesh", "height_field"};
+    c.shapes = {"sphere",  "circle", "box",           "capsule",      "cylinder",
+                "cone",    "hull",   "polygon",       "half_space",   "half_plane",
+                "segment", "chain",  "triangle_mesh", "height_field", "ellipsoid"};
     for (const engine::JointEntry<engine::Space3d>& joint : engine::jointTable<engine::Space3d>())
         addJointCapabilities(joint.name, joint.axes > 0, c.joints);
     c.contactImpulses = c.contactSolvers = true;

@@ -73,6 +73,8 @@ engine::Shape<engine::Space<R, 3>> toSpaceShape(const Geometry& geometry) {
         return engine::Cylinder<S>{static_cast<R>(s->radius), static_cast<R>(s->halfLength)};
     if (const auto* s = std::get_if<scenario::Cone>(&geometry))
         return engine::Cone<S>{static_cast<R>(s->radius), static_cast<R>(s->halfLength)};
+    if (const auto* s = std::get_if<scenario::Ellipsoid>(&geometry))
+        return engine::Ellipsoid<S>{toEngineVec<S>(s->halfAxes)};
     if (const auto* s = std::get_if<scenario::TriangleMesh>(&geometry)) {
         std::vector<std::array<std::uint32_t, 3>> triangles;
         for (const std::array<int, 3>& t : s->triangles)

@@ -76,9 +76,13 @@ Shape readLineShape(const Node& node, std::string& unsupported) {
                 {},
                 0};
     }
-    if (kind == "ellipsoid")
-        unsupported = "ellipsoid: not a shape of this testbed";
-    else if (type)
+    if (kind == "ellipsoid") {
+        const auto radii = node.require("radii");
+        if (radii && radii->isArray())
+            for (const Node& radius : radii->items()) (void)radius.positive();
+        return {Ellipsoid{radii ? radii->vector() : Vec3{1, 1, 1}}, {}, 0};
+    }
+    if (type)
         type->problem("shape.missing",
                       "sphere, box, capsule, cylinder, cone, convex, halfspace or ellipsoid");
     return {Sphere{1.0}, {}, 0};

@@ -44,6 +44,17 @@ Geometry readBox(const Node& node) {
     return Box{h};
 }
 
+Geometry readEllipsoid(const Node& node) {
+    node.isObject({"half_axes"});
+    const auto half = node.require("half_axes");
+    if (!half) return Ellipsoid{{1, 1, 1}};
+    const auto before = node.context().problems.size();
+    const Vec3 h = half->vector();
+    if (node.context().problems.size() == before)
+        for (const Node& axis : half->items()) (void)axis.positive();
+    return Ellipsoid{h};
+}
+
 Geometry readHull(const Node& node) {
     node.isObject({"vertices"});
     const auto list = node.require("vertices");
@@ -153,6 +164,7 @@ constexpr Kind kKinds[] = {{"sphere", 3, readSphere},
                            {"capsule", 0, readRound<Capsule>},
                            {"cylinder", 3, readRound<Cylinder>},
                            {"cone", 3, readRound<Cone>},
+                           {"ellipsoid", 3, readEllipsoid},
                            {"hull", 3, readHull},
                            {"polygon", 2, readHull},
                            {"half_space", 3, readHalfSpace},
@@ -172,12 +184,13 @@ std::string kindNames(int dimension) {
 
 Shape readShape(const Node& node, const Scenario& scenario, const Shape& usual) {
     Shape shape = usual;
-    node.isObject({"sphere",           "circle",         "box",           "capsule",
-                   "cylinder",         "cone",           "hull",          "polygon",
-                   "half_space",       "half_plane",     "segment",       "chain",
-                   "triangle_mesh",    "height_field",   "material",      "position",
-                   "orientation",      "axis_angle_deg", "angle",         "angle_deg",
-                   "surface_velocity", "layers",         "collides_with", "group"});
+    node.isObject({"ellipsoid", "sphere",           "circle",         "box",
+                   "capsule",   "cylinder",         "cone",           "hull",
+                   "polygon",   "half_space",       "half_plane",     "segment",
+                   "chain",     "triangle_mesh",    "height_field",   "material",
+                   "position",  "orientation",      "axis_angle_deg", "angle",
+                   "angle_deg", "surface_velocity", "layers",         "collides_with",
+                   "group"});
     const Kind* found = nullptr;
     for (const Kind& kind : kKinds) {
         if (!node.has(kind.key)) continue;

@@ -118,6 +118,7 @@ class Writer {
     // ------------------------------------------------------------------------------------------ bodies
     Json geometry(const Sphere& g) const { return {{"radius", g.radius}}; }
     Json geometry(const Box& g) const { return {{"half_extents", vector(g.halfExtents)}}; }
+    Json geometry(const Ellipsoid& g) const { return {{"half_axes", vector(g.halfAxes)}}; }
     Json geometry(const Capsule& g) const { return round(g); }
     Json geometry(const Cylinder& g) const { return round(g); }
     Json geometry(const Cone& g) const { return round(g); }

@@ -118,6 +118,14 @@ struct OfShape {
         const double across = m * (3.0 * r2 + l * l) / 12.0;
         return {m, {}, Mat3::diagonal(across, m * r2 / 2.0, across)};
     }
+    MassProperties operator()(const Ellipsoid& e) const {
+        const Vec3 h = e.halfAxes;
+        const double m = density * 4.0 / 3.0 * kPi * h.x * h.y * h.z, k = 0.2 * m;
+        return {m,
+                {},
+                Mat3::diagonal(k * (h.y * h.y + h.z * h.z), k * (h.z * h.z + h.x * h.x),
+                               k * (h.x * h.x + h.y * h.y))};
+    }
     MassProperties operator()(const Cone& c) const {
         const double h = 2.0 * c.halfLength, r2 = c.radius * c.radius, m = density * kPi * r2 * h / 3.0;
         const double across = 3.0 * m * (r2 + h * h / 4.0) / 20.0;

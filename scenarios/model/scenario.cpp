@@ -8,12 +8,12 @@
 namespace rigor::scenario {
 
 const char* geometryName(const Geometry& geometry, int dimension) {
-    static constexpr const char* kNames3d[] = {"sphere", "box",           "capsule",     "cylinder",
-                                               "cone",   "hull",          "half_space",  "segment",
-                                               "chain",  "triangle_mesh", "height_field"};
-    static constexpr const char* kNames2d[] = {"circle", "box",           "capsule",     "cylinder",
-                                               "cone",   "polygon",       "half_plane",  "segment",
-                                               "chain",  "triangle_mesh", "height_field"};
+    static constexpr const char* kNames3d[] = {"sphere", "box",           "capsule",      "cylinder",
+                                               "cone",   "hull",          "half_space",   "segment",
+                                               "chain",  "triangle_mesh", "height_field", "ellipsoid"};
+    static constexpr const char* kNames2d[] = {"circle", "box",           "capsule",      "cylinder",
+                                               "cone",   "polygon",       "half_plane",   "segment",
+                                               "chain",  "triangle_mesh", "height_field", "ellipsoid"};
     return (dimension == 2 ? kNames2d : kNames3d)[geometry.index()];
 }
 

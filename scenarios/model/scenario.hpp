@@ -85,12 +85,17 @@ struct HeightField {
     double thickness = 1.0;                 ///< [m], > 0
 };
 
+/// 3D only: half axes > 0 along the local axes [m].
+struct Ellipsoid {
+    Vec3 halfAxes;
+};
+
 using Geometry = std::variant<Sphere, Box, Capsule, Cylinder, Cone, ConvexHull, HalfSpace, Segment, Chain,
-                              TriangleMesh, HeightField>;
+                              TriangleMesh, HeightField, Ellipsoid>;
 
 /// Names used in files, capabilities and reports, by Geometry index: "sphere" ("circle" in 2D), "box",
 /// "capsule", "cylinder", "cone", "hull" ("polygon" in 2D), "half_space" ("half_plane" in 2D), "segment",
-/// "chain", "triangle_mesh", "height_field".
+/// "chain", "triangle_mesh", "height_field", "ellipsoid".
 const char* geometryName(const Geometry& geometry, int dimension);
 
 /// Velocity of a shape's surface over its body, as of a conveyor belt or a turntable: a point x of the body frame moves

@@ -64,6 +64,7 @@ class Maker {
         if (kind == "capsule") return Capsule{flat * length(), length()};
         if (kind == "cylinder") return Cylinder{length(), flat * length()};
         if (kind == "cone") return Cone{length(), flat * length()};
+        if (kind == "ellipsoid") return Ellipsoid{{length(), flat * length(), length()}};
         if (kind == "box") return Box{{length(), flat * length(), dimension_ == 2 ? 0.0 : length()}};
         const int corners =
             dimension_ == 2 ? 3 + static_cast<int>(below(6)) : 8 + static_cast<int>(below(13));
@@ -142,6 +143,7 @@ class Maker {
             inner = {{"radius", s->radius}, {"half_length", s->halfLength}};
         if (const auto* s = std::get_if<Cone>(&g))
             inner = {{"radius", s->radius}, {"half_length", s->halfLength}};
+        if (const auto* s = std::get_if<Ellipsoid>(&g)) inner = {{"half_axes", vector(s->halfAxes)}};
         if (const auto* s = std::get_if<Box>(&g)) inner = {{"half_extents", vector(s->halfExtents)}};
         if (const auto* s = std::get_if<ConvexHull>(&g)) {
             inner["vertices"] = Json::array();

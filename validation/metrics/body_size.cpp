@@ -20,6 +20,7 @@ Geometry boundOf(const Geometry& geometry) {
     const auto round = [](double radius, double halfLength) { return Box{{radius, halfLength, radius}}; };
     if (const auto* c = std::get_if<Cylinder>(&geometry)) return round(c->radius, c->halfLength);
     if (const auto* c = std::get_if<Cone>(&geometry)) return round(c->radius, c->halfLength);
+    if (const auto* e = std::get_if<Ellipsoid>(&geometry)) return Box{e->halfAxes};
     return geometry;
 }
 

@@ -50,6 +50,9 @@ std::optional<double> lowest(const Geometry& geometry, const Pose& pose, Vec3 n,
         for (const double x : {-h.x, h.x})
             for (const double y : {-h.y, h.y})
                 for (const double z : {-h.z, h.z}) points.push_back({x, y, dimension == 2 ? 0.0 : z});
+    } else if (const auto* e = std::get_if<Ellipsoid>(&geometry)) {
+        const Vec3 m = rotateInverse(pose.orientation, n), h = e->halfAxes;
+        return dot(n, pose.position) - norm(Vec3{h.x * m.x, h.y * m.y, h.z * m.z});
     } else {
         return std::nullopt;
     }

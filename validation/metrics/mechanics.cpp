@@ -4,6 +4,7 @@
 // See mechanics.hpp.
 #include "validation/metrics/mechanics.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rigor::validation {
@@ -26,6 +27,8 @@ double reachOf(const Body& body) {
         double own = 0.0;
         if (const auto* s = std::get_if<Sphere>(&shape.geometry)) own = s->radius;
         if (const auto* s = std::get_if<Box>(&shape.geometry)) own = norm(s->halfExtents);
+        if (const auto* s = std::get_if<Ellipsoid>(&shape.geometry))
+            own = std::max({s->halfAxes.x, s->halfAxes.y, s->halfAxes.z});
         if (const auto* s = std::get_if<Capsule>(&shape.geometry)) own = s->radius + s->halfLength;
         if (const auto* s = std::get_if<Cylinder>(&shape.geometry))
             own = std::hypot(s->radius, s->halfLength);

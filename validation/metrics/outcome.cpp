@@ -39,6 +39,9 @@ struct Reach {
         return std::abs(u.x) * g.halfExtents.x + std::abs(u.y) * g.halfExtents.y +
                std::abs(u.z) * g.halfExtents.z;
     }
+    double operator()(const Ellipsoid& g) const {
+        return norm(Vec3{u.x * g.halfAxes.x, u.y * g.halfAxes.y, u.z * g.halfAxes.z});
+    }
     double operator()(const Capsule& g) const { return g.radius + std::abs(u.y) * g.halfLength; }
     double operator()(const Cylinder& g) const {
         return std::abs(u.y) * g.halfLength + across(u.y) * g.radius;

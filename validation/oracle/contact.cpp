@@ -11,10 +11,11 @@
 // these, with both signs, are tried; further directions can not exceed the maximum and do no harm.
 // A difference that is flat (two balls, two capsules, a ball in a segment) has no inside: touching cores are
 // at distance 0, and every direction orthogonal to the difference is a minimising normal.
-// Cylinders and cones: solid_contact.cpp.
+// Cylinders and cones: solid_contact.cpp. Ellipsoids: ellipsoid_contact.cpp.
 #include <algorithm>
 #include <limits>
 
+#include "validation/oracle/ellipsoid_contact.hpp"
 #include "validation/oracle/oracle.hpp"
 #include "validation/oracle/solid.hpp"
 
@@ -238,6 +239,10 @@ std::optional<OracleAnswer> roundContact(const scenario::Geometry& a, const scen
     return answer;
 }
 
+bool isEllipsoid(const scenario::Geometry& g) {
+    return std::holds_alternative<scenario::Ellipsoid>(g);
+}
+
 bool isRound(const scenario::Geometry& g) {
     return std::holds_alternative<scenario::Cylinder>(g) || std::holds_alternative<scenario::Cone>(g);
 }
@@ -247,6 +252,8 @@ bool isRound(const scenario::Geometry& g) {
 std::optional<OracleAnswer> exactContact(const scenario::Geometry& a, const scenario::Pose& poseA,
                                          const scenario::Geometry& b, const scenario::Pose& poseB,
                                          int dimension, double tie) {
+    if (isEllipsoid(a) || isEllipsoid(b))
+        return dimension == 3 ? ellipsoidContact(a, poseA, b, poseB, tie) : std::nullopt;
     if (isRound(a) || isRound(b))
         return dimension == 3 ? roundContact(a, poseA, b, poseB, tie) : std::nullopt;
     const scenario::Vec3 origin = poseA.position;
@@ -281,6 +288,8 @@ std::optional<double> separationAlong(const scenario::Geometry& a, const scenari
                            Vec d) -> std::optional<Real> {
         if (const std::optional<Core> c = makeCore(g, pose, dimension, origin, false))
             return supportAlong(*c, d) + c->radius;
+        if (const auto* e = std::get_if<scenario::Ellipsoid>(&g); e != nullptr && dimension == 3)
+            return ellipsoidReach(*e, pose, origin, d);
         if (dimension == 3 && isRound(g)) return supportOf(*makeSolid(g, pose, origin), d);
         if (const std::optional<Plane> p = makePlane(g, pose, origin)) {
             // Bounded along its own normal alone; 1e-8 rad of rounding in a reported normal is no other

@@ -30,6 +30,12 @@ std::vector<Vec3> rim(double radius, double y) {
 struct PointShape {
     std::vector<Vec3> points;
     double radius = 0.0;
+    Vec3 halfAxes = {};  ///< of an ellipsoid, which has no points; else 0
+    /// The shape's point furthest along the unit vector d, of an ellipsoid.
+    Vec3 furthest(Vec3 d) const {
+        const Vec3 h = halfAxes, e{h.x * d.x, h.y * d.y, h.z * d.z};
+        return 1.0 / norm(e) * Vec3{h.x * e.x, h.y * e.y, h.z * e.z};
+    }
 };
 
 struct ToPoints {
@@ -61,6 +67,7 @@ struct ToPoints {
         shape.points.push_back({0, c.halfLength, 0});
         return shape;
     }
+    PointShape operator()(const Ellipsoid& e) const { return {{}, 0.0, e.halfAxes}; }
     PointShape operator()(const ConvexHull& h) const { return {h.vertices, 0.0}; }
     PointShape operator()(const HalfSpace&) const { return {}; }
     PointShape operator()(const Segment& s) const { return {{s.a, s.b}, 0.0}; }
@@ -254,6 +261,10 @@ Support supportOf(const Scenario& scenario, int index, const Plane& plane) {
     for (const auto& shape : body.shapes) {
         const Pose pose = body.pose * shape.pose;
         const PointShape points = std::visit(ToPoints{scenario.dimension}, shape.geometry);
+        if (norm(points.halfAxes) > 0.0) {
+            const Vec3 lowest = pose * points.furthest(rotateInverse(pose.orientation, -plane.normal));
+            all.push_back({plane.height(lowest), lowest, shape.material});
+        }
         for (const Vec3 p : points.points) {
             const Vec3 lowest = pose * p - points.radius * plane.normal;
             all.push_back({plane.height(lowest), lowest, shape.material});
@@ -305,6 +316,10 @@ double sizeOf(const Body& body) {
     double size = 0.0;
     for (const auto& shape : body.shapes) {
         const PointShape points = std::visit(ToPoints{3}, shape.geometry);
+        const Vec3 h = points.halfAxes;
+        if (norm(h) > 0.0)
+            size = std::max(size, norm(shape.pose.position - body.massProperties.centerOfMass) +
+                                      std::max({h.x, h.y, h.z}));
         for (const Vec3 p : points.points)
             size = std::max(size, norm(shape.pose * p - body.massProperties.centerOfMass) + points.radius);
     }

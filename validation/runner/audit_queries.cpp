@@ -31,6 +31,9 @@ struct BallVisitor {
     Ball operator()(const scenario::Sphere& s) const { return {{}, s.radius}; }
     Ball operator()(const scenario::Box& s) const { return {{}, norm(s.halfExtents)}; }
     Ball operator()(const scenario::Capsule& s) const { return {{}, s.radius + s.halfLength}; }
+    Ball operator()(const scenario::Ellipsoid& s) const {
+        return {{}, std::max({s.halfAxes.x, s.halfAxes.y, s.halfAxes.z})};
+    }
     Ball operator()(const scenario::Cylinder& s) const { return {{}, std::hypot(s.radius, s.halfLength)}; }
     Ball operator()(const scenario::Cone& s) const { return {{}, std::hypot(s.radius, s.halfLength)}; }
     Ball operator()(const scenario::ConvexHull& s) const {

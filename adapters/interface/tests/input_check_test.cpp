@@ -251,7 +251,7 @@ TEST(Missing, IsWhatTheFormatHasAndNoEngineClaims) {
     c.dimensions = {3};
     EXPECT_EQ(notInAdapterYet(c),
               (std::vector<std::string>{"chain", "sphere", "hull", "half_space", "cylinder", "cone",
-                                        "triangle_mesh", "height_field"}));
+                                        "triangle_mesh", "height_field", "ellipsoid"}));
 }
 
 TEST(Planar, ShapesBecomeSolidsAroundThePlane) {

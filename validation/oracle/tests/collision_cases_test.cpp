@@ -37,7 +37,8 @@ std::optional<Geometry> geometry(const json& j) {
     }
     if (type == "cylinder") return Cylinder{j.at("radius"), j.at("half_height")};
     if (type == "cone") return Cone{j.at("radius"), j.at("half_height")};
-    return std::nullopt;  // ellipsoid
+    if (type == "ellipsoid") return Ellipsoid{vec(j.at("radii"))};
+    return std::nullopt;
 }
 
 Pose pose(const json& j, const json& shape) {

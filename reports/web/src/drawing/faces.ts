@@ -147,6 +147,8 @@ function localFaces(g: Geometry, planar: boolean): Face[] {
         });
       return outline([...half(0, g.halfLength), ...half(Math.PI, -g.halfLength)]);
     }
+    case 'ellipsoid':
+      return closed(capsule(1, 0).map((face) => face.map((p) => p.map((v, i) => v * (g.half[i] as number)) as Vec3)));
     case 'cylinder': {
       const [low, high] = [ring(g.radius, -g.halfLength), ring(g.radius, g.halfLength)];
       return closed([...between(low, high), low, high]);

@@ -15,6 +15,8 @@ export function reachOf(geometry: Geometry): number {
       return geometry.radius;
     case 'box':
       return Math.hypot(...geometry.half);
+    case 'ellipsoid':
+      return Math.max(...geometry.half);
     case 'capsule':
       return geometry.radius + geometry.halfLength;
     case 'cylinder':
@@ -40,6 +42,8 @@ function halfWidth(geometry: Geometry, m: ArrayLike<number>, o: number, k: numbe
       return geometry.radius;
     case 'box':
       return Math.abs(x) * geometry.half[0] + Math.abs(y) * geometry.half[1] + Math.abs(z) * geometry.half[2];
+    case 'ellipsoid':
+      return Math.hypot(x * geometry.half[0], y * geometry.half[1], z * geometry.half[2]);
     case 'capsule':
       return geometry.radius + Math.abs(y) * geometry.halfLength;
     case 'cylinder':

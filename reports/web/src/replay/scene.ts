@@ -15,7 +15,7 @@ export interface Pose {
 
 export type Geometry =
   | { kind: 'sphere'; radius: number }
-  | { kind: 'box'; half: Vec3 }
+  | { kind: 'box' | 'ellipsoid'; half: Vec3 }
   | { kind: 'capsule' | 'cylinder' | 'cone'; radius: number; halfLength: number } // axis along y
   | { kind: 'hull'; vertices: Vec3[] }
   | { kind: 'half_space'; normal: Vec3; offset: number }
@@ -98,6 +98,7 @@ const readers: Record<string, (json: Json) => Geometry> = {
   sphere: ball,
   circle: ball,
   box: (json) => ({ kind: 'box', half: vector(json.half_extents) }),
+  ellipsoid: (json) => ({ kind: 'ellipsoid', half: vector(json.half_axes) }),
   capsule: round('capsule'),
   cylinder: round('cylinder'),
   cone: round('cone'),

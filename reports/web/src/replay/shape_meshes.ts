@@ -213,6 +213,8 @@ export class TemplateCache {
       case 'box':
         if (flat) return this.#sized('rectangle', rectangle, [geometry.half[0], geometry.half[1], 1]);
         return this.#sized('box', box, geometry.half);
+      case 'ellipsoid':
+        return this.#sized('sphere', () => sphere(this.#round), geometry.half);
       case 'cylinder':
       case 'cone': {
         const make = geometry.kind === 'cone' ? cone : cylinder;
