@@ -8,6 +8,7 @@
 #include "engine/embedding/frame_stepper.hpp"
 #include "engine/embedding/solid_body.hpp"
 #include "engine/embedding/svg_lines.hpp"
+#include "engine/embedding/world_batch.hpp"
 #include "engine/pipeline/algorithms.hpp"
 #include "engine/pipeline/choices.hpp"
 #include "engine/pipeline/events.hpp"
