@@ -83,6 +83,17 @@ std::uint64_t SpatialOrder<S>::keyOf(const Aabb<S>& box) const {
     return key;
 }
 
+/// By key, and by index where keys are equal.
+template <class S>
+void SpatialOrder<S>::sortEntries() {
+    // The counters of the radix sort take 50 KiB to clear, which is more than the boxes of a small world cost.
+    constexpr std::size_t kFewEntries = 400;
+    if (entries_.size() > kFewEntries) return radixSort();
+    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+        return a.key < b.key || (a.key == b.key && a.box < b.box);
+    });
+}
+
 template <class S>
 void SpatialOrder<S>::radixSort() {
     std::array<std::array<std::uint32_t, kBuckets>, kDigits> counts;
@@ -136,7 +147,7 @@ void SpatialOrder<S>::sort(std::span<const Aabb<S>> boxes, std::vector<std::uint
     tasks.forEach(n, kGrain, [&](std::size_t i) {
         entries_[i] = {keyOf(boxes[i]), static_cast<std::uint32_t>(i)};
     });
-    radixSort();
+    sortEntries();
 
     // Blocks do not mix classes, but begin where a group does.
     blocks_.clear();

@@ -39,6 +39,7 @@ class SpatialOrder {
     void chooseGrid(std::span<const Aabb<S>> boxes);
     std::uint64_t keyOf(const Aabb<S>& box) const;
     int classOf(const Entry& entry) const { return static_cast<int>(entry.key >> S::dim * bits_); }
+    void sortEntries();
     void radixSort();
 
     struct Center {

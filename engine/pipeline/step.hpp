@@ -4,6 +4,7 @@
 // One step of a world: the loop over its stages (step.cpp) and what each stage does (stages.cpp).
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -81,10 +82,11 @@ class Step {
   private:
     using Ang = typename S::Ang;
     using Work = void (Step::*)();
+    using Clock = std::chrono::steady_clock;
 
     template <class Visitor>
     static void forEachStage(const WorldParts<S>& world, const StepState<S>& state, const Visitor& stage);
-    void run(Phase phase, int substep, Work work);
+    void run(Phase phase, int substep, Work work, Clock::time_point& mark);
     void end();
     void abandon();
     void injectFault(Phase phase);
