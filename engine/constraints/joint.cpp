@@ -20,6 +20,7 @@ std::span<const JointEntry<S>> jointTable() {
 #define JOINT(type, name, evaluate, axes2d, axes3d, summary) \
     {JointType::type, #name, &evaluate<S>, S::dim == 2 ? axes2d : axes3d, summary},
 #include "engine/constraints/joints.def"
+#include "engine/math/portable.hpp"
 #undef JOINT
     };
     return table;
@@ -137,8 +138,8 @@ void addTurnCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B
         row.angB = 1;
     } else {
         const typename S::Vec u = rotateInverse(A.q, rotate(B.q, joint.turnPerpB1));
-        Row<S>& row =
-            out.coordinate(unwrapped(std::atan2(joint.turnPerpA2.dot(u), joint.turnPerpA1.dot(u)), last));
+        Row<S>& row = out.coordinate(
+            unwrapped(portable::atan2(joint.turnPerpA2.dot(u), joint.turnPerpA1.dot(u)), last));
         row.angB = rotate(A.q, joint.turnA);
         row.angA = -row.angB;
     }

@@ -16,6 +16,8 @@
 
 #include <algorithm>
 
+#include "engine/math/portable.hpp"
+
 namespace rigor::engine {
 namespace {
 
@@ -38,7 +40,7 @@ struct Swing {
         normal = cross(x, b);
         cosine = x.dot(b);
         sine = normal.norm();
-        phi = std::atan2(sine, cosine);
+        phi = portable::atan2(sine, cosine);
         // The cross product of nearly parallel vectors is rounding in any direction: it is made normal to x
         // again.
         const Vec u = normal - x.dot(normal) * x;
@@ -66,7 +68,7 @@ void addTwistCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& 
     const typename S::Real last = joint.lastCoordinate[out.axes];
     const Swing<S> swing(joint, A, B);
     const typename S::Vec u = swing.swungBack(swing.by);
-    Row<S>& row = out.coordinate(unwrapped(std::atan2(u.dot(swing.z), u.dot(swing.y)), last));
+    Row<S>& row = out.coordinate(unwrapped(portable::atan2(u.dot(swing.z), u.dot(swing.y)), last));
     direct<S>((swing.x + swing.b) / swing.opening(), row);
 }
 

@@ -6,13 +6,15 @@
 
 #include "engine/integrators/integrator.hpp"
 
+#include "engine/math/portable.hpp"
+
 namespace rigor::engine {
 
 template <class R>
 DampedStep<R> dampedStep(R keptPerSecond, R h) {
     if (keptPerSecond == R(1)) return {R(1), h};
-    const double rate = std::log(static_cast<double>(keptPerSecond));  // < 0
-    const double change = std::expm1(rate * static_cast<double>(h));
+    const double rate = portable::log(static_cast<double>(keptPerSecond));  // < 0
+    const double change = portable::expm1(rate * static_cast<double>(h));
     return {static_cast<R>(1.0 + change), static_cast<R>(change / rate)};
 }
 template DampedStep<float> dampedStep(float, float);

@@ -20,6 +20,7 @@
 // Four evaluations of the forces per step.
 #include "engine/integrators/free_flow.hpp"
 #include "engine/integrators/traits.hpp"
+#include "engine/math/portable.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -39,7 +40,7 @@ typename S::Ang inverseDexp(const typename S::Ang& theta, const typename S::Ang&
 /// ln(kept per second) [1/s].
 template <class R>
 R dampingRate(R kept) {
-    return kept == R(1) ? R(0) : static_cast<R>(std::log(static_cast<double>(kept)));
+    return kept == R(1) ? R(0) : static_cast<R>(portable::log(static_cast<double>(kept)));
 }
 
 /// The spin variable of body i: angular momentum, or angular velocity where there is no gyroscopic term.

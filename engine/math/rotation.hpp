@@ -7,6 +7,7 @@
 // halved until a Taylor polynomial is exact to rounding, then the rotation is squared as often.
 #pragma once
 
+#include "engine/math/portable.hpp"
 #include "engine/math/space.hpp"
 
 namespace rigor::engine {
@@ -79,7 +80,7 @@ Eigen::Matrix<R, 3, 1> logMap(const Eigen::Quaternion<R>& q) {
     const R s = u.norm();
     const R w = std::abs(q.w());
     if (s < R(1e-6)) return (R(2) / w) * u;
-    return (R(2) * std::atan2(s, w) / s) * u;
+    return (R(2) * portable::atan2(s, w) / s) * u;
 }
 
 /// The rotation vector of q, of angle at most pi, without libm: q is rooted until the arc sine of its half

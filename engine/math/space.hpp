@@ -14,6 +14,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/portable.hpp"
+
 namespace rigor::engine {
 
 /// Rotation in 2D, stored as cosine and sine of its angle; c^2 + s^2 = 1.
@@ -21,7 +23,7 @@ template <class R>
 struct Rot2 {
     R c = R(1), s = R(0);
     static Rot2 fromAngle(R angle) { return {std::cos(angle), std::sin(angle)}; }
-    R angle() const { return std::atan2(s, c); }
+    R angle() const { return portable::atan2(s, c); }
 };
 
 template <class R, int D>

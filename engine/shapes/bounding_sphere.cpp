@@ -7,6 +7,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "engine/math/portable.hpp"
 #include "engine/shapes/hull.hpp"
 
 namespace rigor::engine {
@@ -103,7 +104,7 @@ BoundingSphere<S> exactSphere(const Kind& s) {
         return sphereOfCone(s);
     } else {
         static_assert(std::is_same_v<Kind, Cylinder<S>>);
-        return {Vec::Zero(), std::hypot(s.radius, s.halfLength)};
+        return {Vec::Zero(), portable::hypot(s.radius, s.halfLength)};
     }
 }
 

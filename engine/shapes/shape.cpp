@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/portable.hpp"
 #include "engine/shapes/hull.hpp"
 #include "engine/shapes/surface.hpp"
 
@@ -51,7 +52,7 @@ typename S::Vec supportOf(const Hull<S>& s, const typename S::Vec& d) {
 /// The rim point of the cap on the side of d; straight along the axis any will do.
 template <class S>
 typename S::Vec rimPoint(typename S::Real radius, typename S::Real y, const typename S::Vec& d) {
-    const typename S::Real across = std::hypot(d.x(), d.z());
+    const typename S::Real across = portable::hypot(d.x(), d.z());
     if (!(across > 0)) return {radius, y, 0};
     const typename S::Real k = radius / across;
     return {k * d.x(), y, k * d.z()};
@@ -62,7 +63,7 @@ typename S::Vec supportOf(const Cylinder<S>& s, const typename S::Vec& d) {
 }
 template <class S>
 typename S::Vec supportOf(const Cone<S>& s, const typename S::Vec& d) {
-    if (typename S::Real(2) * s.halfLength * d.y() > s.radius * std::hypot(d.x(), d.z()))
+    if (typename S::Real(2) * s.halfLength * d.y() > s.radius * portable::hypot(d.x(), d.z()))
         return {0, s.halfLength, 0};
     return rimPoint<S>(s.radius, -s.halfLength, d);
 }
@@ -125,7 +126,8 @@ Aabb<S> boxOf(const Capsule<S>& s, const Pose<S>& X) {
 /// Half extents of a disc of unit radius around the unit vector `axis`: sqrt(1 - axis_i^2).
 template <class S>
 typename S::Vec discExtents(const typename S::Vec& axis) {
-    return {std::hypot(axis.y(), axis.z()), std::hypot(axis.z(), axis.x()), std::hypot(axis.x(), axis.y())};
+    return {portable::hypot(axis.y(), axis.z()), portable::hypot(axis.z(), axis.x()),
+            portable::hypot(axis.x(), axis.y())};
 }
 template <class S>
 Aabb<S> boxOf(const Cylinder<S>& s, const Pose<S>& X) {

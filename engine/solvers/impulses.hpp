@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/math/portable.hpp"
 #include "engine/solvers/natural_map.hpp"
 #include "engine/solvers/solver.hpp"
 
@@ -51,7 +52,7 @@ void projectImpulses(const ConstraintRows<S>& all, std::vector<typename S::Real>
         } else if (block.kind == BlockKind::Moment) {
             // The normal, of a block before, has been projected.
             const Real bound = block.friction * (impulses[block.normal] + block.appliedNormal);
-            const Real length = std::hypot(r[0], block.rows > 1 ? r[1] : Real(0));
+            const Real length = portable::hypot(r[0], block.rows > 1 ? r[1] : Real(0));
             for (int i = 0; length > bound && i < block.rows; ++i) r[i] *= bound / length;
         } else if (block.kind == BlockKind::Contact) {
             Vec3 whole = Vec3::Zero();

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/narrowphase/3d/feature.hpp"
 
+#include "engine/math/portable.hpp"
+
 namespace rigor::engine {
 namespace {
 
@@ -83,7 +85,7 @@ void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, SupportF
         const double s = rest == 0 ? 0.0 : kCos[4 - rest];
         return R(quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s);
     };
-    const R across = std::hypot(d.x(), d.z());
+    const R across = portable::hypot(d.x(), d.z());
     int nearest = -1;
     R reach = 0;
     for (int k = 0; k < 16; ++k) {
@@ -107,7 +109,7 @@ void featureOf(const Cylinder<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& ou
         addDisc<R>(s.radius, up * s.halfLength, up, d, up < 0 ? 0 : 16, out);
         return;
     }
-    const R across = std::hypot(d.x(), d.z()), k = s.radius / across;
+    const R across = portable::hypot(d.x(), d.z()), k = s.radius / across;
     const bool lying = std::abs(d.y()) < kFeatureSlope<R>;
     if (lying || d.y() < 0) out.add({k * d.x(), -s.halfLength, k * d.z()}, 32);
     if (lying || d.y() >= 0) out.add({k * d.x(), s.halfLength, k * d.z()}, 33);
@@ -124,7 +126,7 @@ void featureOf(const Cone<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
         addDisc<R>(s.radius, -s.halfLength, R(-1), d, 0, out);
         return;
     }
-    const R across = std::hypot(d.x(), d.z());
+    const R across = portable::hypot(d.x(), d.z());
     const Vec3<R> apex(0, s.halfLength, 0);
     const Vec3<R> rim = across > 0
                             ? Vec3<R>(s.radius * d.x() / across, -s.halfLength, s.radius * d.z() / across)

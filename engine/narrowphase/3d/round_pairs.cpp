@@ -11,6 +11,7 @@
 //     r u, u = -n_xz / |n_xz|. A rim that lies nearly flat on the plane gets four points: fixed in the body,
 //     the nearest of them moved to the lowest point once that is lower by more than rounding. A standing
 //     cylinder so keeps its four points from step to step, and a tilted one rolls on its lowest point.
+#include "engine/math/portable.hpp"
 #include "engine/narrowphase/3d/clip.hpp"
 #include "engine/narrowphase/3d/feature.hpp"
 #include "engine/narrowphase/pairs.hpp"
@@ -64,7 +65,7 @@ void ballAgainst(const Sphere<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, cons
     using S = Space<R, 3>;
     using V = Vec3<R>;
     const V c = rotateInverse<R>(Xb.q, Xa.p - Xb.p);
-    const R rho = std::hypot(c.x(), c.z());
+    const R rho = portable::hypot(c.x(), c.z());
     const V radial = rho > 0 ? V(c.x() / rho, 0, c.z() / rho) : V(V::UnitX());
     const Nearest<R> nearest = nearestOnProfile<R>(b, {rho, c.y()});
     const R separation = nearest.distance - a.radius;
@@ -93,7 +94,7 @@ struct Candidates {
 template <class R>
 void addRim(R radius, R y, R outward, const Vec3<R>& down, std::uint32_t firstId, Candidates<R>& out) {
     using V = Vec3<R>;
-    const R tilt = std::hypot(down.x(), down.z());
+    const R tilt = portable::hypot(down.x(), down.z());
     const V lowest = tilt > 0 ? V(radius * down.x() / tilt, y, radius * down.z() / tilt) : V(radius, y, 0);
     if (outward * down.y() < kFlat<R>) {
         out.add(lowest, firstId);

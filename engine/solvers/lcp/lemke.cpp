@@ -27,6 +27,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/portable.hpp"
+#include "engine/math/rotation.hpp"
 #include "engine/solvers/lcp/direct_rounds.hpp"
 #include "engine/solvers/lcp/lemke_lcp.hpp"
 #include "engine/solvers/matrix_space.hpp"
@@ -188,16 +190,16 @@ class Lemke final : public DirectRounds<S> {
         const int directions = contact.tangents == 1 ? 2 : input.pyramidDirections;
         double start = 0;
         if (contact.tangents == 2 && directions == 2)
-            start = std::atan2(problem_.q[n + 2], problem_.q[n + 1]);
+            start = portable::atan2(problem_.q[n + 2], problem_.q[n + 1]);
         for (int k = 0; k < directions; ++k) {
-            const double angle = start + 6.283185307179586 * k / directions;
+            const Rot2<double> direction = expMap(start + 6.283185307179586 * k / directions);
             Variable beta;
             beta.scale = v.scale;
             beta.row[0] = n + 1;
-            beta.coefficient[0] = v.scale * std::cos(angle);
+            beta.coefficient[0] = v.scale * direction.c;
             if (contact.tangents == 2) {
                 beta.row[1] = n + 2;
-                beta.coefficient[1] = v.scale * std::sin(angle);
+                beta.coefficient[1] = v.scale * direction.s;
             }
             variables_.push_back(beta);
         }

@@ -85,7 +85,7 @@ bool ContactInterior::solve(const AssembledProblem& problem, double shift, std::
         direction(0.0, false);
         const double far = std::min(1.0, longestStep());
         // Mehrotra's rule: little centring where the straight step would go far.
-        direction(std::pow(1 - far, 3) * gap(), far > kFar);
+        direction((1 - far) * (1 - far) * (1 - far) * gap(), far > kFar);
         double length = std::min(1.0, kStepFraction * longestStep());
         if (length < kFar) {  // off the path: back to its middle before going on
             direction(gap(), false);

@@ -3,6 +3,7 @@
 #include "engine/solvers/methods/newton_finish.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -66,7 +67,8 @@ template <class S>
 typename S::Real NewtonFinish<S>::attemptFromInside(const SolverInput<S>& input, Real residual, Real goal) {
     assemble(input);
     if (interiorStarts_ == kInteriorStarts || !ContactInterior::fits(problem_)) return residual;
-    const double shift = std::pow(10.0, -interiorStarts_++);
+    constexpr std::array<double, kInteriorStarts> kShifts{1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
+    const double shift = kShifts[static_cast<std::size_t>(interiorStarts_++)];
     before_.save(input);
     problem_.readVelocities<S>(input.constraints, input.velocities);
     if (!interior_.solve(problem_, shift, target_)) return residual;
