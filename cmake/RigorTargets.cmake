@@ -12,6 +12,10 @@ target_include_directories(rigor_flags INTERFACE ${PROJECT_SOURCE_DIR})
 # The same bits everywhere: no contraction into fused multiply-adds, no fast-math.
 target_compile_options(rigor_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
                                              -ffp-contract=off)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)
+    # Eigen would fuse multiply-adds by intrinsics, which the option above does not reach.
+    target_compile_options(rigor_flags INTERFACE -U__ARM_FEATURE_FMA)
+endif()
 # GCC 12 reports false positives of these from inside Eigen and the standard library when it inlines.
 target_compile_options(rigor_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-uninitialized
                                              -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict>)

@@ -22,7 +22,8 @@ namespace {
 /// Chunks of a work queue that no thread has taken yet, [next, end), packed into one atomic word, so that the
 /// thread that takes a chunk knows which range it belongs to: [range 24 | end 20 | next 20]. A failed take
 /// moves an end of an empty queue by one; kLate is the room for these.
-constexpr std::uint64_t kChunkBits = 20, kLate = 4096, kMostChunks = (1u << kChunkBits) - 2 * kLate;
+constexpr std::uint64_t kChunkBits = 20, kLate = 4096;
+constexpr std::size_t kMostChunks = (1u << kChunkBits) - 2 * kLate;
 constexpr std::uint64_t kTakeNext = 1, kTakeLast = -(std::uint64_t(1) << kChunkBits);  // increments that take
                                                                                        // a chunk
 constexpr std::uint64_t pack(std::uint64_t range, std::uint64_t first, std::uint64_t end) {

@@ -16,6 +16,16 @@
 
 #include "engine/math/portable.hpp"
 
+#if defined(EIGEN_VECTORIZE_NEON)
+namespace Eigen::internal {
+/// NEON has vectors of two floats, by which Eigen would add three or six numbers in another order than on x86.
+template <int Size>
+struct find_best_packet_helper<Size, Packet4f, false> {
+    using type = Packet4f;
+};
+}  // namespace Eigen::internal
+#endif
+
 namespace rigor::engine {
 
 /// Rotation in 2D, stored as cosine and sine of its angle; c^2 + s^2 = 1.

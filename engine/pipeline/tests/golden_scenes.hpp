@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The scenes whose state hashes are recorded (golden_test.cpp).
+// The scenes whose state hashes are recorded (golden_test.cpp) and compared across processors
+// (print_golden_hashes.cpp).
 #pragma once
 
 #include <cstdint>

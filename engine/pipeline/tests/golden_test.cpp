@@ -4,7 +4,7 @@
 // The same bits today as yesterday, in Debug as in Release: the state hashes of a table of scenes against
 // recorded ones (golden_hashes.def). They depend on IEEE arithmetic, on the order of operations that the
 // source prescribes (-ffp-contract=off, no fast-math), and on Eigen's SSE2 kernels, hence x86-64; not on libm, of which a
-// step uses no function that is not exact (math/portable.hpp).
+// step uses no function that is not exact (math/portable.hpp). Other processors: cmake/cross/README.md.
 //
 // A difference says that results have changed. If the change was intended, renew the file by
 //     RIGOR_RENEW_GOLDEN=1 build/release/tests/engine_pipeline_state_test --gtest_filter=Golden.*
