@@ -5,6 +5,7 @@
 // contact is the body of lower index on both sides. Read-back comes from the engine's own objects.
 #include <algorithm>
 
+#include "adapters/interface/batch.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/joint_springs.hpp"
 #include "adapters/interface/pair_table.hpp"
@@ -13,6 +14,7 @@
 #include "adapters/rigor/parts.hpp"
 #include "adapters/rigor/settings.hpp"
 #include "adapters/rigor/staged.hpp"
+#include "engine/embedding/world_batch.hpp"
 #include "engine/integrators/traits.hpp"
 #include "engine/pipeline/world.hpp"
 
@@ -83,6 +85,13 @@ engine::BodyType toEngineType(scenario::BodyType type) {
             break;
     }
     return engine::BodyType::Dynamic;
+}
+
+template <class S>
+BodyState stateOf(const engine::World<S>& world, engine::BodyId body) {
+    const engine::Pose<S> X = world.pose(body);
+    return {fromEngineVec(X.p), fromEngineRot(X.q), fromEngineVec(world.velocity(body)),
+            fromEngineAng(world.angularVelocity(body))};
 }
 
 template <class S>
@@ -227,6 +236,7 @@ class RigorWorld final : public World, public StateSetting {
     bool jointHolds(int joint) const override { return world_.contains(indices_.joint[joint]); }
     bool isAsleep(int body) const override { return isDynamic(body) && world_.isAsleep(id(body)); }
     StagedWorld* staged() override { return &staged_; }
+    std::unique_ptr<BatchWorlds> batch(std::size_t worlds, int threads) const;
     Snapshots* snapshots() override { return &snapshots_; }
 
   private:
@@ -239,11 +249,7 @@ class RigorWorld final : public World, public StateSetting {
     }
     std::uint32_t material(int index) const { return materials_[static_cast<std::size_t>(index)]; }
 
-    BodyState state(int body) const {
-        const engine::Pose<S> X = world_.pose(id(body));
-        return {fromEngineVec(X.p), fromEngineRot(X.q), fromEngineVec(world_.velocity(id(body))),
-                fromEngineAng(world_.angularVelocity(id(body)))};
-    }
+    BodyState state(int body) const { return stateOf(world_, id(body)); }
 
     /// Everything of the scenario into an empty world.
     void populate() {
@@ -374,20 +380,59 @@ class RigorWorld final : public World, public StateSetting {
     mutable std::vector<engine::ContactView<S>> views_;
 };
 
-class RigorDynamics final : public DynamicsEngine {
+/// Copies of a world.
+template <class S>
+class RigorBatch final : public BatchWorlds {
+  public:
+    RigorBatch(const engine::World<S>& world, typename S::Real dt, std::span<const engine::BodyId> bodies,
+               std::size_t worlds, int threads)
+        : dt_(dt), bodies_(bodies.begin(), bodies.end()), batch_(world, worlds, {threads}) {}
+    std::size_t size() const override { return batch_.size(); }
+    void step(int steps) override {
+        if (!batch_.step(dt_, steps)) std::rethrow_exception(batch_.failures().front().error);
+    }
+    void readStates(std::size_t world, std::span<BodyState> states) const override {
+        for (std::size_t i = 0; i < bodies_.size(); ++i) states[i] = stateOf(batch_.world(world), bodies_[i]);
+    }
+
+  private:
+    typename S::Real dt_;
+    std::vector<engine::BodyId> bodies_;
+    engine::WorldBatch<S> batch_;
+};
+
+template <class S>
+std::unique_ptr<BatchWorlds> RigorWorld<S>::batch(std::size_t worlds, int threads) const {
+    return std::make_unique<RigorBatch<S>>(world_, dt_, bodies_, worlds, threads);
+}
+
+class RigorDynamics final : public BatchingEngine {
   public:
     std::unique_ptr<World> build(const Scenario& scenario, double dt,
                                  const Settings& settings) const override {
+        return made<std::unique_ptr<World>>(
+            scenario, dt, settings, [](auto world) { return std::unique_ptr<World>(std::move(world)); });
+    }
+    std::unique_ptr<BatchWorlds> buildBatch(const Scenario& scenario, double dt, const Settings& settings,
+                                            std::size_t worlds, int threads) const override {
+        return made<std::unique_ptr<BatchWorlds>>(
+            scenario, dt, settings, [=](const auto& world) { return world->batch(worlds, threads); });
+    }
+
+  private:
+    /// `take` of the world in the scenario's dimension and the precision of the settings.
+    template <class Result, class Take>
+    static Result made(const Scenario& scenario, double dt, const Settings& settings, const Take& take) {
         checkScenarioInput(scenario, dt);
         checkSupported(scenario, rigorCapabilities(), "rigor");
         const bool single = textSetting(settings, "precision") == "f32";
         try {
             if (scenario.dimension == 2) {
-                if (single) return std::make_unique<RigorWorld<Space2f>>(scenario, dt, settings);
-                return std::make_unique<RigorWorld<Space2d>>(scenario, dt, settings);
+                if (single) return take(std::make_unique<RigorWorld<Space2f>>(scenario, dt, settings));
+                return take(std::make_unique<RigorWorld<Space2d>>(scenario, dt, settings));
             }
-            if (single) return std::make_unique<RigorWorld<Space3f>>(scenario, dt, settings);
-            return std::make_unique<RigorWorld<Space3d>>(scenario, dt, settings);
+            if (single) return take(std::make_unique<RigorWorld<Space3f>>(scenario, dt, settings));
+            return take(std::make_unique<RigorWorld<Space3d>>(scenario, dt, settings));
         } catch (const std::invalid_argument& error) {
             throw BadInput(error.what());
         }
