@@ -100,8 +100,8 @@ bool onContactAdded(btManifoldPoint& point, const btCollisionObjectWrapper* a, i
     return true;
 }
 
-/// For the shapes of two compounds, or of a compound and another shape: whether their filters let them touch. The
-/// shapes of worlds carry their filters, those of collision queries none.
+/// True where the filters of two shapes let them touch. Bullet calls it with the shapes of two compounds, or of a
+/// compound and another shape; those of worlds carry their filters, those of collision queries none.
 bool childrenMayTouch(const btCollisionShape* a, const btCollisionShape* b) {
     const auto* filterA = static_cast<const scenario::ContactFilter*>(a->getUserPointer());
     const auto* filterB = static_cast<const scenario::ContactFilter*>(b->getUserPointer());

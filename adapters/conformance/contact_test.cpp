@@ -249,8 +249,8 @@ TEST_P(Contact, WhatMayNotCollideDoesNot) {
 
 TEST_P(Contact, LayersAndGroupsDecideWhatCollides) {
     if (!engine().capabilities().contactFilters) GTEST_SKIP() << "no layers";
-    // What the ground of the layers 1 (bit 0) is to the body: a mask without it, a layer that the ground has not, one
-    // that both want, a group that never collides, and one that always does.
+    // The cases: a mask without the other's layer on either side, layers that both want, a group that never collides,
+    // another group, a group that always does, and the last of the bits.
     struct Case {
         scenario::ContactFilter ground, body;
         bool held;

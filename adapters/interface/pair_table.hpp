@@ -54,7 +54,7 @@ class PairTable {
     std::vector<bool> collides_, dynamic_;
     bool filtered_ = false;  ///< some filter is not the default
     bool filtersByBody_ = true;
-    std::vector<std::vector<scenario::ContactFilter>> filtersOf_;  ///< by body and shape
+    std::vector<std::vector<scenario::ContactFilter>> filtersOf_;  ///< filters by body and shape
     std::vector<std::vector<int>> materialsOf_;                    ///< materials by body and shape
     std::vector<std::pair<int, int>> connected_;  ///< sorted pairs that a joint keeps from colliding
 };

@@ -78,7 +78,7 @@ void finishByDescent(const Minkowski<S>& D, CoreContact<S>& r) {
     placeFoot<S>(query, D, D.innerPoint(), r);
 }
 
-/// By support points alone.
+/// The result of GJK and EPA, which know support points alone.
 template <class S>
 CoreContact<S> supportedCores(const Minkowski<S>& D) {
     GjkResult<S> apart = gjk<S>(D, D.translation());

@@ -112,7 +112,7 @@ struct CoreContact {
 template <class S>
 CoreContact<S> closestCores(const Minkowski<S>& D);
 
-/// Where one of the shapes is an ellipsoid: follows the normal to a minimum of the support of D, to rounding
+/// Follows the normal to a minimum of the support of D, to rounding, where one of the shapes is an ellipsoid
 /// (3d/curved_normal.cpp). Other contacts stay as they are, and those of 2D.
 template <class R>
 void refineCurved(const Minkowski<Space<R, 3>>& D, CoreContact<Space<R, 3>>& contact);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which shapes may touch each other: by layers that a file names, and by groups.
+// Filters of contacts: layers that a file names, and groups.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ inline constexpr std::uint32_t kAllLayers = (1U << kMaxLayers) - 1U;
 /// Name of the layer of shapes that name none: bit 0.
 inline constexpr const char* kDefaultLayer = "default";
 
-/// Two shapes may touch if each collides with a layer of the other. Shapes of one group, not 0, ask the group alone:
-/// a positive one always, a negative one never.
+/// Two shapes may touch if each collides with a layer of the other. The group alone decides for shapes of
+/// one group, not 0: a positive one always touches, a negative one never.
 struct ContactFilter {
     std::uint32_t layers = 1;                 ///< bit k: Scenario::layers[k]; never 0
     std::uint32_t collidesWith = kAllLayers;  ///< bits of the layers that the shape collides with

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kMostNormals = 64;  ///< maximum number of normals of a tie or a continuum
 constexpr int kStarts = 400, kBest = 24, kAngles = 128, kNewtonSteps = 60;
-constexpr Real kDifference = 1e-7L;  ///< of angles; leaves 12 digits of a derivative
+constexpr Real kDifference = 1e-7L;  ///< step of an angle; leaves 12 digits of a derivative
 
 Vec unit(Vec v) {
     return (1 / norm(v)) * v;
@@ -223,7 +223,7 @@ std::optional<OracleAnswer> ellipsoidContact(const scenario::Geometry& a, const 
     const auto found = Search(*supportA, *supportB).found();
     const Real least = found.front().first;
     const Vec n = found.front().second;
-    // Of an ellipsoid the support point is one; the other's lies across the distance.
+    // An ellipsoid has one support point; the other shape's lies across the distance.
     const bool exactA = !supportA->solid;
     const Vec own = exactA ? supportA->point(n) : supportB->point(-1 * n);
     OracleAnswer answer =

@@ -30,7 +30,7 @@ std::vector<Vec3> rim(double radius, double y) {
 struct PointShape {
     std::vector<Vec3> points;
     double radius = 0.0;
-    Vec3 halfAxes = {};  ///< of an ellipsoid, which has no points; else 0
+    Vec3 halfAxes = {};  ///< half axes of an ellipsoid, which has no points; else 0
     /// The shape's point furthest along the unit vector d, of an ellipsoid.
     Vec3 furthest(Vec3 d) const {
         const Vec3 h = halfAxes, e{h.x * d.x, h.y * d.y, h.z * d.z};

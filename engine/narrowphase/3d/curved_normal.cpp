@@ -138,7 +138,7 @@ class CurvedNormal {
         }
         const V t1 = n.unitOrthogonal(), t2 = n.cross(t1);
         R a = t1.dot(H * t1) - phi, b = t1.dot(H * t2), c = t2.dot(H * t2) - phi;
-        // Where the Hessian is no valley yet, that of the sphere around: a step along the gradient.
+        // A Hessian that is not positive definite gives way to that of a sphere: a step along the gradient.
         if (!(a > 0 && a * c - b * b > 0)) {
             a = c = H.trace() + std::abs(phi);
             b = 0;

@@ -64,6 +64,7 @@ struct SameGeometry {
         EXPECT_EQ(a.vertices, b.vertices);
         EXPECT_EQ(a.triangles, b.triangles);
     }
+    void operator()(const Ellipsoid& a, const Ellipsoid& b) const { EXPECT_EQ(a.halfAxes, b.halfAxes); }
     void operator()(const HeightField& a, const HeightField& b) const {
         EXPECT_EQ(a.heights, b.heights);
         EXPECT_EQ(a.columns, b.columns);

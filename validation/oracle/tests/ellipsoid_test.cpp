@@ -15,7 +15,7 @@ namespace {
 
 using namespace scenario;
 
-struct Dice {
+struct Rng {
     std::mt19937 generator{7};
     double between(double a, double b) { return std::uniform_real_distribution<double>(a, b)(generator); }
     Vec3 direction() {
@@ -31,12 +31,12 @@ Vec3 times(Vec3 a, Vec3 b) {
 }
 
 TEST(EllipsoidOracle, ABallOverAPointOfTheSurface) {
-    Dice dice;
+    Rng rng;
     for (int k = 0; k < 100; ++k) {
-        const Ellipsoid e{{dice.between(0.2, 1), dice.between(0.2, 1), dice.between(0.2, 1)}};
-        const Pose pose{{1, -2, 0.5}, dice.turn()};
-        const Vec3 n = dice.direction(), en = times(e.halfAxes, n), foot = times(e.halfAxes, en) / norm(en);
-        const double gap = dice.between(-0.05, 0.5);
+        const Ellipsoid e{{rng.between(0.2, 1), rng.between(0.2, 1), rng.between(0.2, 1)}};
+        const Pose pose{{1, -2, 0.5}, rng.turn()};
+        const Vec3 n = rng.direction(), en = times(e.halfAxes, n), foot = times(e.halfAxes, en) / norm(en);
+        const double gap = rng.between(-0.05, 0.5);
         const Pose ball{pose * (foot + (gap + 0.1) * n), {}};
         const auto found = exactContact(Geometry(e), pose, Geometry(Sphere{0.1}), ball, 3);
         ASSERT_TRUE(found.has_value());
@@ -47,13 +47,13 @@ TEST(EllipsoidOracle, ABallOverAPointOfTheSurface) {
 }
 
 TEST(EllipsoidOracle, EqualHalfAxesAreASphere) {
-    Dice dice;
+    Rng rng;
     const Geometry sphere = Sphere{0.4}, ellipsoid = Ellipsoid{{0.4, 0.4, 0.4}};
     const Geometry others[] = {Box{{0.5, 0.3, 0.7}}, Capsule{0.2, 0.5},         Cylinder{0.4, 0.5},
                                Cone{0.5, 0.6},       HalfSpace{{0, 1, 0}, 0.1}, Ellipsoid{{0.3, 0.6, 0.5}}};
     for (const Geometry& other : others)
         for (int k = 0; k < 30; ++k) {
-            const Pose a{dice.between(0.3, 1.6) * dice.direction(), dice.turn()}, b{{}, dice.turn()};
+            const Pose a{rng.between(0.3, 1.6) * rng.direction(), rng.turn()}, b{{}, rng.turn()};
             const auto round = exactContact(sphere, a, other, b, 3),
                        same = exactContact(ellipsoid, a, other, b, 3);
             ASSERT_TRUE(round && same);
@@ -62,17 +62,17 @@ TEST(EllipsoidOracle, EqualHalfAxesAreASphere) {
 }
 
 TEST(EllipsoidOracle, NoDirectionIsBetter) {
-    Dice dice;
+    Rng rng;
     const Geometry others[] = {Ellipsoid{{0.3, 0.6, 0.5}}, Box{{0.5, 0.3, 0.7}}, Cone{0.5, 0.6}};
     for (const Geometry& other : others)
         for (int k = 0; k < 20; ++k) {
-            const Geometry e = Ellipsoid{{dice.between(0.2, 1), dice.between(0.2, 1), dice.between(0.2, 1)}};
-            const Pose a{dice.between(0, 2) * dice.direction(), dice.turn()}, b{{}, dice.turn()};
+            const Geometry e = Ellipsoid{{rng.between(0.2, 1), rng.between(0.2, 1), rng.between(0.2, 1)}};
+            const Pose a{rng.between(0, 2) * rng.direction(), rng.turn()}, b{{}, rng.turn()};
             const auto found = exactContact(e, a, other, b, 3);
             ASSERT_TRUE(found.has_value());
             EXPECT_NEAR(*separationAlong(e, a, other, b, 3, found->normals[0]), found->signedDistance, 1e-14);
             for (int i = 0; i < 2000; ++i)
-                EXPECT_LE(*separationAlong(e, a, other, b, 3, dice.direction()),
+                EXPECT_LE(*separationAlong(e, a, other, b, 3, rng.direction()),
                           found->signedDistance + 1e-14);
         }
 }

@@ -208,7 +208,7 @@ class RollingEllipsoid : public Reference {
     int index_;
     double duration_;
     const Body& body_;
-    Quat frame_;  ///< of the ellipsoid at the start
+    Quat frame_;  ///< orientation of the ellipsoid at the start
     Vec3 start_, normal_, axis_, tangent_;
     Vec3 lying_;  ///< axis of the half axis c at the start
     double gravity_ = 0.0, a_ = 1.0, c_ = 1.0, angle_ = 0.0, moment_ = 1.0, speed_ = 0.0;
