@@ -17,6 +17,7 @@
 #include "adapters/rigor/convert_shape.hpp"
 #include "cli/command.hpp"
 #include "cli/guarded.hpp"
+#include "cli/png_picture.hpp"
 #include "engine/embedding/svg_lines.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "scenarios/model/nearest.hpp"
@@ -191,24 +192,31 @@ class SceneLines {
 };
 
 template <class S>
-std::string pictureOf(const Scene& scene, const DrawArguments& a) {
+engine::SvgLines<S> pictureOf(const Scene& scene, const DrawArguments& a) {
     constexpr double kDegree = 3.14159265358979323846 / 180.0;
     const std::set<DebugKind> kinds = kindsOf(a.show);
     engine::SvgLines<S> picture({kDegree * a.turn, kDegree * a.lift});
     SceneLines<S>(scene, kinds, picture).draw();
-    return picture.text(a.width);
+    return picture;
+}
+
+/// The bytes of the file: PNG if its name ends so, else SVG.
+template <class S>
+std::string fileOf(const Scene& scene, const DrawArguments& a) {
+    const engine::SvgLines<S> lines = pictureOf<S>(scene, a);
+    return a.out.ends_with(".png") ? pngOf(lines.picture(a.width)) : lines.text(a.width);
 }
 
 int drawHere(const DrawArguments& a) {
     (void)kindsOf(a.show);
     const Scene scene = runTo(a);
-    const std::string picture = scene.scenario.dimension == 2 ? pictureOf<engine::Space2d>(scene, a)
-                                                              : pictureOf<engine::Space3d>(scene, a);
+    const std::string picture =
+        scene.scenario.dimension == 2 ? fileOf<engine::Space2d>(scene, a) : fileOf<engine::Space3d>(scene, a);
     if (a.out == "-") {
         std::cout << picture;
         return kOk;
     }
-    std::ofstream file(a.out);
+    std::ofstream file(a.out, std::ios::binary);
     if (!(file << picture) || !file.flush())
         throw std::invalid_argument("--out: cannot write '" + a.out + "': " + std::strerror(errno));
     std::fprintf(stderr, "%s at %.6g s, %zu contact points: %s\n", a.scenario.c_str(), scene.time,
@@ -220,8 +228,8 @@ int drawHere(const DrawArguments& a) {
 
 void addDraw(CLI::App& app, Action& action) {
     auto a = std::make_shared<DrawArguments>();
-    auto* command =
-        app.add_subcommand("draw", "Draw a scenario at a time, as an engine has it, as an SVG picture");
+    auto* command = app.add_subcommand(
+        "draw", "Draw a scenario at a time, as an engine has it, as an SVG or PNG picture");
     command->add_option("SCENARIO", a->scenario, "Name or file")->required();
     command->add_option("-e,--engine", a->engine, "Engine spec (default: rigor)");
     command->add_option("--at", a->at, "Time [s]; the step nearest to it is drawn (default 0)");
@@ -229,7 +237,8 @@ void addDraw(CLI::App& app, Action& action) {
                         "Time step in seconds (0.004 or 1/240); default: the scenario's first");
     command->add_option("--set", a->overrides, "Override a scenario value: KEY=VALUE")
         ->allow_extra_args(false);
-    command->add_option("-o,--out", a->out, "File; '-' (default) for standard output");
+    command->add_option("-o,--out", a->out,
+                        "File, a PNG if its name ends in .png, else SVG; '-' (default) for standard output");
     command->add_option(
         "--show", a->show,
         "Some of outline, contact, normal, impulse, velocity, joint, with commas between "

@@ -382,10 +382,10 @@ class RigorWorld final : public World, public StateSetting {
 
 /// Copies of a world.
 template <class S>
-class RigorBatch final : public BatchWorlds {
+class RigorWorlds final : public BatchWorlds {
   public:
-    RigorBatch(const engine::World<S>& world, typename S::Real dt, std::span<const engine::BodyId> bodies,
-               std::size_t worlds, int threads)
+    RigorWorlds(const engine::World<S>& world, typename S::Real dt, std::span<const engine::BodyId> bodies,
+                std::size_t worlds, int threads)
         : dt_(dt), bodies_(bodies.begin(), bodies.end()), batch_(world, worlds, {threads}) {}
     std::size_t size() const override { return batch_.size(); }
     void step(int steps) override {
@@ -403,7 +403,7 @@ class RigorBatch final : public BatchWorlds {
 
 template <class S>
 std::unique_ptr<BatchWorlds> RigorWorld<S>::batch(std::size_t worlds, int threads) const {
-    return std::make_unique<RigorBatch<S>>(world_, dt_, bodies_, worlds, threads);
+    return std::make_unique<RigorWorlds<S>>(world_, dt_, bodies_, worlds, threads);
 }
 
 class RigorDynamics final : public BatchingEngine {

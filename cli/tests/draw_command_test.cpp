@@ -41,6 +41,29 @@ TEST(DrawCommand, DrawsShapesAndContactsOfAnyEngine) {
     fs::remove(file);
 }
 
+/// Big-endian number of four bytes.
+std::size_t numberAt(const std::string& bytes, std::size_t at) {
+    std::size_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = 256 * value + static_cast<unsigned char>(bytes[at + i]);
+    return value;
+}
+
+TEST(DrawCommand, WritesPngFiles) {
+    const fs::path file = fs::path(RIGOR_BINARY_DIR) / ("drawn-" + std::to_string(getpid()) + ".png");
+    const auto drawn = rigor("draw box_stack --at 0.1 --width 300 --out " + file.string());
+    ASSERT_EQ(drawn.code, 0) << drawn.out;
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    const std::string bytes = text.str();
+    ASSERT_GT(bytes.size(), 500u);
+    EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n");
+    EXPECT_EQ(numberAt(bytes, 16), 300u);
+    EXPECT_GT(numberAt(bytes, 20), 300u) << "a stack is higher than wide";
+    fs::remove(file);
+    const auto svg = rigor("draw box_stack --at 0.1 --width 300", false);
+    EXPECT_THAT(svg.out, testing::StartsWith("<svg "));
+}
+
 TEST(DrawCommand, ShowsWhereTheBodiesAreAtThatTime) {
     const auto begin = rigor("draw free_flight --at 0 --show outline", false);
     const auto later = rigor("draw free_flight --at 0.5 --show outline,velocity", false);

@@ -11,7 +11,6 @@
 namespace rigor::engine {
 namespace {
 
-/// Colours that differ in lightness too, by kind.
 constexpr std::array<const char*, kDebugKinds> kColours = {"#33475b", "#b8c4ce", "#d1495b", "#d1495b",
                                                            "#b5179e", "#2a9d8f", "#e9a03b", "#6a78d1"};
 
@@ -22,6 +21,10 @@ std::string number(double value) {
 }
 
 }  // namespace
+
+const char* debugColour(DebugKind kind) {
+    return kColours[static_cast<std::size_t>(kind)];
+}
 
 template <class S>
 typename SvgLines<S>::Place SvgLines<S>::project(const Vec& at) const {
@@ -68,28 +71,37 @@ std::array<double, 4> SvgLines<S>::frame() const {
 }
 
 template <class S>
-std::string SvgLines<S>::text(int width) const {
+Picture SvgLines<S>::picture(int width) const {
     const auto [left, right, bottom, top] = frame();
     const double margin = 12,
                  scale = (width - 2 * margin) / std::max({right - left, 0.5 * (top - bottom), 1e-9});
-    const auto x = [&, low = left](double value) { return number(margin + scale * (value - low)); };
-    const auto y = [&, high = top](double value) { return number(margin + scale * (high - value)); };
+    const auto x = [&, low = left](double value) { return margin + scale * (value - low); };
+    const auto y = [&, high = top](double value) { return margin + scale * (high - value); };
+    Picture picture{width, 2 * margin + scale * (top - bottom), {}};
+    for (const Stroke& s : strokes_)
+        if (isFinite(s)) picture.marks.push_back({x(s.x0), y(s.y0), x(s.x1), y(s.y1), s.kind, s.isPoint});
+    return picture;
+}
+
+template <class S>
+std::string SvgLines<S>::text(int width) const {
+    const Picture shown = picture(width);
     std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + std::to_string(width) +
-                      "\" height=\"" + number(2 * margin + scale * (top - bottom)) + "\">\n<style>";
+                      "\" height=\"" + number(shown.height) + "\">\n<style>";
     for (int k = 0; k < kDebugKinds; ++k) {
         const std::string name = debugKindName(static_cast<DebugKind>(k));
-        const std::string colour = kColours[static_cast<std::size_t>(k)];
+        const std::string colour = debugColour(static_cast<DebugKind>(k));
         out += " line." + name + " {stroke: " + colour + "} circle." + name + " {fill: " + colour + "}";
     }
     out += "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-    for (const Stroke& s : strokes_) {
-        if (!isFinite(s)) continue;
-        const std::string kind = std::string(" class=\"") + debugKindName(s.kind) + "\"/>\n";
-        if (s.isPoint)
-            out += "<circle cx=\"" + x(s.x0) + "\" cy=\"" + y(s.y0) + "\" r=\"2.5\"" + kind;
+    for (const Picture::Mark& m : shown.marks) {
+        const std::string kind = std::string(" class=\"") + debugKindName(m.kind) + "\"/>\n";
+        if (m.isPoint)
+            out += "<circle cx=\"" + number(m.x0) + "\" cy=\"" + number(m.y0) + "\" r=\"" +
+                   number(kPicturePointRadius) + "\"" + kind;
         else
-            out += "<line x1=\"" + x(s.x0) + "\" y1=\"" + y(s.y0) + "\" x2=\"" + x(s.x1) + "\" y2=\"" +
-                   y(s.y1) + "\"" + kind;
+            out += "<line x1=\"" + number(m.x0) + "\" y1=\"" + number(m.y0) + "\" x2=\"" + number(m.x1) +
+                   "\" y2=\"" + number(m.y1) + "\"" + kind;
     }
     return out + "</svg>\n";
 }

@@ -19,6 +19,23 @@ struct PictureView {
     double turn = 0.6, lift = 0.35;
 };
 
+/// A picture in pixels, from its top left corner.
+struct Picture {
+    /// A line, or a point at (x0, y0).
+    struct Mark {
+        double x0, y0, x1, y1;
+        DebugKind kind;
+        bool isPoint;
+    };
+    int width = 0;
+    double height = 0;
+    std::vector<Mark> marks;  ///< in the order in which they were drawn
+};
+
+/// "#rrggbb": a colour for each kind; they differ in lightness, too.
+const char* debugColour(DebugKind kind);
+inline constexpr double kPicturePointRadius = 2.5;  ///< [pixels]
+
 template <class S>
 class SvgLines final : public LineSink<S> {
   public:
@@ -31,8 +48,9 @@ class SvgLines final : public LineSink<S> {
     /// reaches into the frame: a wide ground under small bodies.
     void keepInFrame(bool keep) { keeps_ = keep; }
 
-    /// The picture, `width` pixels wide and at most twice as high, and everything drawn so far in it. A style sheet in it has a class for
-    /// each kind. Nothing drawn: an empty picture.
+    /// Everything drawn so far, `width` pixels wide and at most twice as high. Nothing drawn: an empty picture.
+    Picture picture(int width = 800) const;
+    /// The same as SVG; a style sheet in it has a class for each kind.
     std::string text(int width = 800) const;
     void clear() { strokes_.clear(); }
 

@@ -14,24 +14,15 @@
 #include <algorithm>
 #include <numbers>
 
+#include "validation/oracle/directions.hpp"
 #include "validation/oracle/ellipsoid_contact.hpp"
 #include "validation/oracle/solid.hpp"
 
 namespace rigor::validation::oracle {
 namespace {
 
-constexpr std::size_t kMostNormals = 64;  ///< maximum number of normals of a tie or a continuum
 constexpr int kStarts = 400, kBest = 24, kAngles = 128, kNewtonSteps = 60;
 constexpr Real kDifference = 1e-7L;  ///< step of an angle; leaves 12 digits of a derivative
-
-Vec unit(Vec v) {
-    return (1 / norm(v)) * v;
-}
-Vec anyNormalTo(Vec u) {
-    const Vec axis =
-        std::abs(u.x) < 0.6L ? Vec{1, 0, 0} : (std::abs(u.y) < 0.6L ? Vec{0, 1, 0} : Vec{0, 0, 1});
-    return unit(cross(u, axis));
-}
 
 /// A shape as its support function and support point.
 struct Support {

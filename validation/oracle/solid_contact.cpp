@@ -21,6 +21,7 @@
 // apart, and show the direction to be stationary where they overlap. Cost: about a millisecond.
 #include <algorithm>
 
+#include "validation/oracle/directions.hpp"
 #include "validation/oracle/roots.hpp"
 #include "validation/oracle/solid.hpp"
 
@@ -29,16 +30,7 @@ namespace {
 
 /// Tolerance for points of the supporting face, relative to the size.
 constexpr Real kOnFace = 1e-12L;
-constexpr std::size_t kMostNormals = 64;  ///< maximum number of normals of a tie or a continuum
 
-Vec unit(Vec v) {
-    return (1 / norm(v)) * v;
-}
-Vec anyNormalTo(Vec u) {
-    const Vec axis =
-        std::abs(u.x) < 0.6L ? Vec{1, 0, 0} : (std::abs(u.y) < 0.6L ? Vec{0, 1, 0} : Vec{0, 0, 1});
-    return unit(cross(u, axis));
-}
 Vec without(Vec v, Vec axis) {
     return v - dot(v, axis) * axis;
 }

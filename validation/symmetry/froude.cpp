@@ -46,6 +46,7 @@ struct Scale {
         g.thickness *= kLength;
         for (double& h : g.heights) h *= kLength;
     }
+    void operator()(Ellipsoid& g) const { g.halfAxes = kLength * g.halfAxes; }
     template <class Round>
     void operator()(Round& g) const {
         g.radius *= kLength;

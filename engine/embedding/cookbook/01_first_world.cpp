@@ -14,11 +14,11 @@ int main() {
     World<S> world(def);
     BodyDef<S> fixed;
     fixed.type = BodyType::Static;
-    world.addShape(world.addBody(fixed), {HalfSpace<S>{{0, 1, 0}, 0}});
+    world.addShape(world.addBody(fixed), {HalfSpace<S>{{0, 1, 0}, 0}, {}});
     BodyDef<S> above;
     above.pose.p = {0, 2, 0};
     const BodyId ball = world.addBody(above);
-    ShapeDef<S> sphere{Sphere<S>{0.5}};
+    ShapeDef<S> sphere{Sphere<S>{0.5}, {}};
     sphere.density = 700;  // [kg/m^3]
     world.addShape(ball, sphere);
     for (int i = 0; i < 300; ++i) world.step(1.0 / 60);

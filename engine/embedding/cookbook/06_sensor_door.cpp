@@ -12,13 +12,13 @@ int main() {
     World<S> world(WorldDef<S>{});
     BodyDef<S> place;
     place.type = BodyType::Static;
-    ShapeDef<S> front{Box<S>{{1, 1, 1}}};
+    ShapeDef<S> front{Box<S>{{1, 1, 1}}, {}};
     front.sensor = true;
     const ShapeId sensor = world.addShape(world.addBody(place), front);
     place.type = BodyType::Kinematic;
     place.pose.p = {0, 0, 2};
     const BodyId door = world.addBody(place);
-    world.addShape(door, {Box<S>{{0.5, 1, 0.05}}});
+    world.addShape(door, {Box<S>{{0.5, 1, 0.05}}, {}});
     place.pose.p = {-2.05, 0, 0};
     place.velocity = {2, 0, 0};
     place.type = BodyType::Dynamic;

@@ -17,7 +17,7 @@ int main() {
         BodyDef<S> place;
         place.type = type;
         place.pose.p = {0, height, 0};
-        ShapeDef<S> part{shape};
+        ShapeDef<S> part{shape, {}};
         part.filter = filter;
         const BodyId body = world.addBody(place);
         world.addShape(body, part);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/embedding/tests/tick.hpp"
 #include "engine/pipeline/tests/scene.hpp"
 #include "engine/shapes/surface.hpp"
 
@@ -19,8 +20,6 @@ template <class S>
 class PreSolveCall : public testing::Test {};
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(PreSolveCall, Spaces);
-
-constexpr double kTick = 1.0 / 60;
 
 template <class S>
 BodyId addPlatform(World<S>& world, double y) {

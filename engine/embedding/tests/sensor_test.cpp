@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/embedding/tests/tick.hpp"
 #include "engine/pipeline/tests/scene.hpp"
 
 namespace rigor::engine::test {
@@ -16,8 +17,6 @@ template <class S>
 class Sensor : public testing::Test {};
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(Sensor, Spaces);
-
-constexpr double kTick = 1.0 / 60;
 
 template <class S>
 ShapeId addSensor(World<S>& world, BodyId body, const Shape<S>& shape, const ShapeFilter& filter = {}) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/core/error.hpp"
+#include "engine/embedding/tests/tick.hpp"
 #include "engine/pipeline/tests/scene.hpp"
 
 namespace rigor::engine::test {
@@ -17,8 +18,6 @@ template <class S>
 class WorldChanges : public testing::Test {};
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(WorldChanges, Spaces);
-
-constexpr double kTick = 1.0 / 60;
 
 /// A tower of cubes of 1 m on a static slab, asleep or at rest.
 template <class S>

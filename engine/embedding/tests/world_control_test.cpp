@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/core/error.hpp"
+#include "engine/embedding/tests/tick.hpp"
 #include "engine/pipeline/tests/scene.hpp"
 #include "engine/shapes/surface.hpp"
 
@@ -18,8 +19,6 @@ template <class S>
 class WorldControl : public testing::Test {};
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(WorldControl, Spaces);
-
-constexpr double kTick = 1.0 / 60;
 
 /// Two cubes of 1 m, one on the other, at rest.
 template <class S>

@@ -26,8 +26,8 @@ class Ellipsoids : public testing::Test {
                        random.rotation());
     }
 };
-using Spaces = testing::Types<Space3f, Space3d>;
-TYPED_TEST_SUITE(Ellipsoids, Spaces);
+using Spaces3 = testing::Types<Space3f, Space3d>;
+TYPED_TEST_SUITE(Ellipsoids, Spaces3);
 
 /// The nearest point of an ellipsoid to x outside: y = (I + t E^-2)^-1 x with |E^-1 y| = 1, t by bisection.
 Eigen::Vector3d nearestTo(const Eigen::Vector3d& x, const Eigen::Vector3d& h) {

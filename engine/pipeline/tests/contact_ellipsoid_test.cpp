@@ -16,8 +16,8 @@ namespace {
 
 template <class S>
 class MovingEllipsoids : public testing::Test {};
-using Spaces = testing::Types<Space3f, Space3d>;
-TYPED_TEST_SUITE(MovingEllipsoids, Spaces);
+using Spaces3 = testing::Types<Space3f, Space3d>;
+TYPED_TEST_SUITE(MovingEllipsoids, Spaces3);
 
 constexpr double kAlong = 0.5, kUpright = 0.3;
 

@@ -35,10 +35,10 @@ const std::vector<BatchScene>& scenes() {
     return all;
 }
 
-constexpr int kWarmUp = 60, kStepsAtOnce = 10;
-constexpr std::size_t kLeast = 5, kMost = 30;
+constexpr int kFirstSteps = 60, kStepsAtOnce = 10;
+constexpr std::size_t kLeastRounds = 5, kMost = 30;
 /// Time of batches of steps after which no further one is begun [s].
-constexpr double kTimeLimit = 0.5;
+constexpr double kLongestRounds = 0.5;
 
 class BatchBench final : public TimedWork {
   public:
@@ -57,12 +57,13 @@ class BatchBench final : public TimedWork {
         const adapter::PreparedEngine engine = adapter::prepareEngine(spec_, scenario_, dt_);
         const GrownMemory memory;
         const auto batch = makeBatch(engine);
-        batch->step(kWarmUp);
-        int steps = kWarmUp;
+        batch->step(kFirstSteps);
+        int steps = kFirstSteps;
         CountingStopwatch watch(kMost);
         const double bodySteps = static_cast<double>(worlds_ * moving() * kStepsAtOnce);
         double spent = 0.0;
-        for (std::size_t k = 0; k < kMost && (k < kLeast || spent < kTimeLimit); ++k, steps += kStepsAtOnce) {
+        for (std::size_t k = 0; k < kMost && (k < kLeastRounds || spent < kLongestRounds);
+             ++k, steps += kStepsAtOnce) {
             watch.time([&] { batch->step(kStepsAtOnce); }, bodySteps);
             spent += watch.samples().cpu.back() * bodySteps;
         }

@@ -48,6 +48,8 @@ inline void scaleShape(scenario::Geometry& geometry, double l) {
                                  std::is_same_v<G, scenario::Chain> ||
                                  std::is_same_v<G, scenario::TriangleMesh>) {
                 for (Vec3& v : g.vertices) v = l * v;
+            } else if constexpr (std::is_same_v<G, scenario::Ellipsoid>) {
+                g.halfAxes = l * g.halfAxes;
             } else {
                 g.radius *= l;
                 g.halfLength *= l;
