@@ -112,8 +112,8 @@ struct Capabilities {
     bool rollingFriction = false,
          torsionalFriction = false;  ///< moments bounded by a length times the normal force
     bool surfaceVelocity = false;    ///< shapes whose surfaces move over their bodies
-    bool contactFilters = false;  ///< layers, masks and groups of bodies
-    bool shapeFilters = false;    ///< other ones for each shape of a body
+    bool contactFilters = false;     ///< layers, masks and groups of bodies
+    bool shapeFilters = false;       ///< other ones for each shape of a body
     /// Features that the library itself does not have, each with the document of its authors that says so
     /// (manual and chapter, or header and declaration), by name: of `shapes` and `joints` as above,
     /// "dynamics", "2D", "3D", or a flag above in snake_case ("static_friction"). Everything else that is

@@ -83,7 +83,7 @@ std::uint64_t SpatialOrder<S>::keyOf(const Aabb<S>& box) const {
     return key;
 }
 
-/// By key, and by index where keys are equal.
+/// The order is by key, and by index where keys are equal.
 template <class S>
 void SpatialOrder<S>::sortEntries() {
     // The counters of the radix sort take 50 KiB to clear, which is more than the boxes of a small world cost.

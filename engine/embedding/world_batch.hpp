@@ -61,7 +61,7 @@ class WorldBatch {
     WorldBatch(std::size_t count, Builder build, const BatchSettings& settings = {});
 
     std::size_t size() const { return worlds_.size(); }
-    std::size_t bodies() const { return bodies_; }  ///< of each world
+    std::size_t bodies() const { return bodies_; }  ///< bodies of each world
     World<S>& world(std::size_t i) { return worlds_[i]; }
     const World<S>& world(std::size_t i) const { return worlds_[i]; }
 
@@ -114,7 +114,8 @@ class WorldBatch {
     std::shared_ptr<const World<S>> start_;  ///< null where `build_` makes the worlds
     Builder build_;
     std::size_t bodies_ = 0;
-    std::vector<std::exception_ptr> errors_;  ///< by world, each written by the thread that works on it
+    std::vector<std::exception_ptr>
+        errors_;  ///< failures by world, each written by the thread that works on it
     std::vector<BatchFailure> failures_;
 };
 

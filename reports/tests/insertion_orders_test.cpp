@@ -85,7 +85,7 @@ TEST(InsertionOrders, ARangeIsShownByEveryFormat) {
     EXPECT_THAT(
         terminal,
         HasSubstr("Depends on the order of insertion (1 of 1 case run in several orders: ↕ 1 in grade)"));
-    EXPECT_THAT(terminal, HasSubstr("order of insertion: 1 of 1 cases order-dependent (↕ 1 in grade)"));
+    EXPECT_THAT(terminal, HasSubstr("order of insertion: 1 of 1 case order-dependent (↕ 1 in grade)"));
     EXPECT_THAT(terminal,
                 HasSubstr("rest_creep 0.0031 as written, " + range + "; grade C as written, C … D"));
 
@@ -174,7 +174,7 @@ TEST(InsertionOrders, OrdersThatDisagreeAboutTheVerdictAreCountedByEveryFormat) 
     c.orders.verdicts = "pass 3, fail 2";
     c.orders.note = "order 3: fails rest_creep (0.4, bound 0.1); order 5: fails rest_creep (0.2, bound 0.1)";
     const ViewModel view(run);
-    const std::string counts = "1 of 1 cases order-dependent (⇅ 1 in verdict)";
+    const std::string counts = "1 of 1 case order-dependent (⇅ 1 in verdict)";
     EXPECT_THAT(terminalSummary(run, 60, 200, false), HasSubstr("order of insertion: " + counts));
     EXPECT_THAT(terminalSummary(run, 60, 200, false), HasSubstr("2 of 5 orders fail (pass 3, fail 2)"));
     EXPECT_THAT(markdownSummary(view), HasSubstr("- order of insertion: " + counts));

@@ -107,6 +107,12 @@ std::vector<Scene> scenes() {
             addBody(s, Sphere{0.3}, {0.599 * i - 19.5, 0.299, 0}, 1, even(sphereMoment(1, 0.3)));
         all.push_back({"row", s, 1.0 / 60, 3});
     }
+    {  // two balls beside each other across their boxes' corners
+        Scenario s = floored(0.5, 0.0);
+        for (int i = 0; i < 2; ++i)
+            addBody(s, Sphere{0.3}, {0.55 * i, 3 + 0.55 * i, 0}, 1, even(sphereMoment(1, 0.3)));
+        all.push_back({"corners", s, 1.0 / 60, 3});
+    }
     return all;
 }
 

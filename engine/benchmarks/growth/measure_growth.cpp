@@ -49,7 +49,7 @@ struct Outcome {
     double first = 0;  ///< [s]
     Times falling{}, pile{};
     double bytes = 0;  ///< resident memory of the world and its scratch, for a body
-    std::size_t pairs = 0, queries = 0, contacts = 0;  ///< of the pile's last step
+    std::size_t pairs = 0, queries = 0, contacts = 0;  ///< counts of the last step of the pile
 };
 
 double cpuNow() {

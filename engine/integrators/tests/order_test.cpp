@@ -152,6 +152,7 @@ std::vector<BodyId> offCenter(World<S>& world) {
 template <class S>
 std::vector<BodyId> dampedAndTwisted(World<S>& world) {
     BodyDef<S> def;
+    def.mass = 1;
     def.inertia = uneven<S>();
     def.velocity = point<S>(3, 2, 1);
     def.angularVelocity = turning<S>(2, 1, -3);

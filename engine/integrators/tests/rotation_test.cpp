@@ -22,6 +22,7 @@ template <class S>
 BodyId addTop(World<S>& world, double speed = 1) {
     using R = typename S::Real;
     BodyDef<S> body;
+    body.mass = 1;
     body.inertia = Vec3<R>(1, 2, 3).asDiagonal();
     body.angularVelocity = static_cast<R>(speed) * Vec3<R>(3, 1, -2);
     return world.addBody(body);
@@ -198,6 +199,7 @@ TEST(Rotation, PrincipalAxesAndSpheresTurnUniformlyInEveryScheme) {
             def.rotation = scheme.name;
             World<Space3d> world(def);
             BodyDef<Space3d> body;
+            body.mass = 1;
             body.inertia = Eigen::Vector3d(1, 2, 3).asDiagonal();
             body.angularVelocity = 4 * Eigen::Vector3d::Unit(axis);
             const BodyId id = world.addBody(body);

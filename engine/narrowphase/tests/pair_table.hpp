@@ -170,7 +170,7 @@ template <class S>
 double curvedTolerance(const Shape<S>& a, const Shape<S>& b) {
     if (!isRound<S>(a) && !isRound<S>(b)) return 0;
     const auto ball = [](const Shape<S>& s) { return std::holds_alternative<Sphere<S>>(s); };
-    return ball(a) || ball(b) ? 2e-4 : tol<S>(1e-5, 4e-5);
+    return ball(a) || ball(b) ? 2e-4 : tol<S>(1e-5, 5e-5);
 }
 
 template <class S>

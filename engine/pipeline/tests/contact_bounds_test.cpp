@@ -32,6 +32,7 @@ Run dropPile(const std::string& volume, typename S::Real motion) {
     const Shape<S> shapes[] = {Box<S>{plate}, Sphere<S>{Real(0.2)}, Capsule<S>{Real(0.05), Real(0.4)}};
     for (int i = 0; i < 30; ++i) {
         BodyDef<S> body;
+        body.mass = 1;
         body.inertia = isotropic<S>(0.1);
         body.pose.p = at<S>(0.3 * (i % 5), 0.3 + 0.25 * i);
         body.pose.q = expMap(spin<S>(0.1 * i));

@@ -84,7 +84,7 @@ struct GoldenScene {
     const char* correction = "ngs";
     const char* continuous = "none";
     int threads = 1;
-    bool fast = false;         ///< by preferSpeed() instead: `wide` and what suits it
+    bool fast = false;         ///< true: set by preferSpeed() instead: `wide` and what suits it
     int islandContacts = 128;  ///< line above which an island is large
 };
 inline constexpr GoldenScene kGoldenScenes[] = {

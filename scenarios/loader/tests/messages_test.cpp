@@ -46,6 +46,7 @@ struct BrokenFile {
     const char* message;
 };
 
+// clang-format off
 const BrokenFile kBrokenFiles[] = {
     {"NotJson", R"("duration": 1,)", R"("duration": 1,,)",
      R"(bad.json:7: (document): found line 7, column 17: syntax error while parsing object key - unexpected ','; expected string literal, expected JSON (RFC 8259) [json.syntax])"},
@@ -141,6 +142,7 @@ const BrokenFile kBrokenFiles[] = {
     {"UnknownGenerator", R"("joints": [)", R"("generators": [ { "tower": {} } ], "joints": [)",
      R"(bad.json:16: /generators/0: found object with 1 keys, expected an object with one key among grid, pyramid, pile, chain, container, group, hull_pile, net, rain, repeat, tumbler [generator.unknown])"},
 };
+// clang-format on
 
 std::vector<Problem> problemsOf(const std::string& text) {
     try {

@@ -22,8 +22,8 @@ using nlohmann::json;
 
 struct BatchScene {
     const char* name;
-    const char* scenario;                ///< of the library
-    std::vector<std::string> overrides;  ///< of the scenario
+    const char* scenario;                ///< scenario of the library
+    std::vector<std::string> overrides;  ///< overrides of the scenario
 };
 const std::vector<BatchScene>& scenes() {
     static const std::vector<BatchScene> all{

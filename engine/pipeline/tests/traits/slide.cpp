@@ -14,6 +14,7 @@ namespace {
 using S = Space3d;
 using Vec2 = Eigen::Vector2d;
 constexpr double kSlideStep = 1.0 / 120, kMu = 0.2;
+constexpr std::uint32_t kFloorMaterial = kUsualMaterial + 1;  ///< the first that a program adds
 
 World<S> onFloor(const std::string& solver, const std::string& friction, double mu) {
     WorldDef<S> def = earth<S>();
@@ -39,7 +40,7 @@ struct Braking {
 };
 Braking brakingOf(const std::string& solver, const std::string& friction, double direction) {
     World<S> world = onFloor(solver, friction, kMu);
-    const BodyId ball = addBall<S>(world, 0, 0.5, 0.5, 1, 1);
+    const BodyId ball = addBall<S>(world, 0, 0.5, 0.5, 1, kFloorMaterial);
     runSlide(world, 120);
     world.setVelocity(ball, S::Vec(4 * std::cos(direction), 0, 4 * std::sin(direction)), S::Vec::Zero());
     runSlide(world, 3);
@@ -76,7 +77,7 @@ double errorWhereSlipTurns(const std::string& solver, const std::string& frictio
     def.inertia = inertia.asDiagonal();
     def.pose.p = at<S>(0, radius);
     const BodyId ball = world.addBody(def);
-    attach<S>(world, ball, Sphere<S>{radius}, 1);
+    attach<S>(world, ball, Sphere<S>{radius}, kFloorMaterial);
     runSlide(world, 120);
     const Vec2 slip(0.7, 0.1);
     world.setVelocity(ball, S::Vec(slip[0], 0, slip[1]), S::Vec::Zero());
@@ -137,7 +138,7 @@ bool rubsInPatches(const std::string& solver) {
         def.inertia = S::Vec(0.1, 0.1, 0.1).asDiagonal();
         def.pose.p = at<S>(0, 0.01);
         const BodyId plate = world.addBody(def);
-        attach<S>(world, plate, makeHull<S>(corners), 1);
+        attach<S>(world, plate, makeHull<S>(corners), kFloorMaterial);
         runSlide(world, 480, h);
         world.setVelocity(plate, S::Vec(std::cos(direction), 0, std::sin(direction)), S::Vec(0, 3, 0));
         runSlide(world, 3, h);

@@ -18,7 +18,7 @@ std::unique_ptr<TimedWork> makeBatch(const PlannedBench& planned);
 
 namespace {
 
-BenchRequest request(std::vector<std::string> engines) {
+BenchRequest batchRequest(std::vector<std::string> engines) {
     setenv("RIGOR_ADAPTER_PATH", RIGOR_BINARY_DIR "/bin/adapters", 1);
     BenchRequest r;
     r.engines = std::move(engines);
@@ -28,7 +28,7 @@ BenchRequest request(std::vector<std::string> engines) {
 }
 
 TEST(BatchPart, WorldsEndAsOneThatIsSteppedAlone) {
-    BenchRequest r = request({"rigor"});
+    BenchRequest r = batchRequest({"rigor"});
     r.threads = {1, 2};
     const std::vector<PlannedBench> all = planBatches(r);
     std::set<std::string> names;
@@ -47,7 +47,7 @@ TEST(BatchPart, WorldsEndAsOneThatIsSteppedAlone) {
 TEST(BatchPart, EnginesWithoutBatchesLoopOverWorldsInOneThread) {
     if (!std::filesystem::exists(RIGOR_BINARY_DIR "/bin/adapters/rigor_adapter_ode.so"))
         GTEST_SKIP() << "no ODE";
-    BenchRequest r = request({"ode:precision=f64"});
+    BenchRequest r = batchRequest({"ode:precision=f64"});
     r.only = {"pendulum"};
     r.threads = {1, 2};
     const std::vector<PlannedBench> all = planBatches(r);
