@@ -156,6 +156,9 @@ std::string checkRate(const Scenario& s, const Reference& r, double end, unsigne
 /// Kinetic and potential energy of the bodies and the scale of their changes; empty where something drives
 /// them or a state is not known in full.
 std::optional<double> energyAt(const Scenario& s, const Reference& r, double t) {
+    for (const Body& body : s.bodies)
+        for (const scenario::Shape& shape : body.shapes)
+            if (shape.surfaceVelocity.moves()) return std::nullopt;
     double sum = 0.0;
     for (const int body : r.bodies()) {
         const Body& b = s.bodies[body];
