@@ -29,6 +29,19 @@ std::optional<double> upwardCrossing(const Trajectory& trajectory, std::size_t f
     return std::nullopt;
 }
 
+std::optional<double> timeBetweenCrossings(const Trajectory& trajectory,
+                                           const std::function<double(std::size_t)>& f,
+                                           const std::function<double(std::size_t)>& slope) {
+    std::optional<double> before;
+    for (std::size_t k = 0; k + 1 < trajectory.frames(); ++k) {
+        if (!(f(k) < 0.0 && f(k + 1) >= 0.0)) continue;
+        const auto time = upwardCrossing(trajectory, k, f, slope);
+        if (time && before) return *time - *before;
+        before = time;
+    }
+    return std::nullopt;
+}
+
 std::optional<double> extrapolatedStop(const Trajectory& trajectory, double start,
                                        const std::function<double(std::size_t)>& speed) {
     for (std::size_t k = 0; k < trajectory.frames(); ++k) {

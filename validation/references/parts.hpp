@@ -149,6 +149,10 @@ double sizeOf(const Body& body);
 std::optional<double> upwardCrossing(const Trajectory& trajectory, std::size_t from,
                                      const std::function<double(std::size_t)>& f,
                                      const std::function<double(std::size_t)>& slope);
+/// The time between the first two of them: a period [s].
+std::optional<double> timeBetweenCrossings(const Trajectory& trajectory,
+                                           const std::function<double(std::size_t)>& f,
+                                           const std::function<double(std::size_t)>& slope);
 
 /// Time at which a linearly shrinking speed reaches zero: extrapolated from the last two frames before it
 /// first falls below 5 % of `start`; exact for constant deceleration. Empty if it never falls below.

@@ -71,7 +71,7 @@ TYPED_TEST(Ellipsoids, AreAtTheDistanceOfTheirNearestPointFromABall) {
     for (int k = 0; k < 500; ++k) {
         const Ellipsoid<S> shape = this->any();
         const Eigen::Vector3d h = shape.halfAxes.template cast<double>();
-        // At a hair's breadth over the surface, and far.
+        // The point is close over the surface, and far from it.
         const double over = std::pow(10.0, this->random.uniform(-4, 0.5));
         const Eigen::Vector3d n0 = this->random.direction().template cast<double>();
         const Eigen::Vector3d foot = h.cwiseProduct(h.cwiseProduct(n0)) / h.cwiseProduct(n0).norm();

@@ -50,7 +50,7 @@ TEST(SurfaceVelocity, IsAFieldOfTheBodyFrame) {
     Shape belt;
     belt.surfaceVelocity = {{1, 0, 0}, {0, 0, 2}};
     const Pose body{{3, 0, 0}, fromAxisAngle({0, 0, 1}, std::acos(0.0))};
-    // At the local point (0, -1, 0): (1, 0, 0) + (0, 0, 2) x (0, -1, 0) = (3, 0, 0), which points along y.
+    // The local point (0, -1, 0) moves with (1, 0, 0) + (0, 0, 2) x (0, -1, 0) = (3, 0, 0), which points along y.
     const Vec3 v = surfaceVelocityAt(belt, body, {4, 0, 0});
     EXPECT_LT(norm(v - Vec3{0, 3, 0}), 1e-15);
     EXPECT_TRUE(belt.surfaceVelocity.moves());

@@ -85,14 +85,7 @@ class BallInTrough : public Reference {
                            cross(hollow_.axis, unit(hollow_.across(center(run, k))))) /
                        reach_;
             };
-            std::optional<double> before;
-            for (std::size_t k = 0; k + 1 < run.frames(); ++k) {
-                if (!(angle(k) < 0.0 && angle(k + 1) >= 0.0)) continue;
-                const auto time = upwardCrossing(run, k, angle, slope);
-                if (time && before) return *time - *before;
-                before = time;
-            }
-            return std::nullopt;
+            return timeBetweenCrossings(run, angle, slope);
         };
         result.push_back(std::move(q));
         return result;

@@ -107,14 +107,7 @@ class RollingEllipsoid : public Reference {
             const auto slope = [&](std::size_t k) {
                 return dot(run.state(k, index_).angularVelocity, axis_);
             };
-            std::optional<double> before;
-            for (std::size_t k = 0; k + 1 < run.frames(); ++k) {
-                if (!(tilt(k) < 0.0 && tilt(k + 1) >= 0.0)) continue;
-                const auto time = upwardCrossing(run, k, tilt, slope);
-                if (time && before) return *time - *before;
-                before = time;
-            }
-            return std::nullopt;
+            return timeBetweenCrossings(run, tilt, slope);
         };
         result.push_back(std::move(q));
         return result;
