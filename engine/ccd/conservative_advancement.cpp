@@ -225,11 +225,9 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
             surfaceImpact_.collideAt(shapeA, shapeB, now, world.narrowPhase, manifold);
         else
             collideAt<S>(shapeA, shapeB, now, world.narrowPhase, manifold);
-        PairCoefficients<S> coefficients =
-            world.contacts.materials().pair(shapes[hit.a].material, shapes[hit.b].material);
-        if (world.contacts.preSolve() &&
-            !callPreSolve<S>(world.contacts.preSolve(), bodies, shapes[hit.a], shapes[hit.b], kNullIndex,
-                             manifold, shapeA.body.p, shapeB.body.p, coefficients)) {
+        const auto law =
+            world.contacts.lawOfImpact(bodies, hit.a, hit.b, manifold, shapeA.body.p, shapeB.body.p);
+        if (!law) {
             vetoed_.push_back(pairKey(hit.a, hit.b));
             return true;
         }
@@ -241,7 +239,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
                 wakeBody(bodies, i);
         }
         for (const std::uint32_t i : {a, b}) goTo(world, i, t);
-        impactSolver_.begin(bodies, shapes[hit.a], shapes[hit.b], manifold, coefficients);
+        impactSolver_.begin(bodies, shapes[hit.a], shapes[hit.b], manifold, *law);
         const Real impulse = impactSolver_.solve(bodies, world.friction, world.restitutionThreshold, true);
         for (const std::uint32_t i : {a, b})
             if (moves(world, i)) bodies.velocity[i].v += (rest / world.h) * kick_[i];

@@ -248,16 +248,14 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
         manifold_.points[0] = {pair.touch.closest.pointA, pair.touch.closest.pointB,
                                pair.touch.closest.distance, 0};
     }
-    PairCoefficients<S> coefficients = world.contacts.materials().pair(sa.material, sb.material);
-    if (world.contacts.preSolve() && !callPreSolve<S>(world.contacts.preSolve(), bodies, sa, sb, kNullIndex,
-                                                      manifold_, A.p, B.p, coefficients))
-        return false;
+    const auto law = world.contacts.lawOfImpact(bodies, pair.a, pair.b, manifold_, A.p, B.p);
+    if (!law) return false;
     const Pose<S> endA = bodies.pose[a], endB = bodies.pose[b];
     bodies.pose[a] = A;
     bodies.pose[b] = B;
     for (const std::uint32_t i : {a, b})
         if (flying_[i]) goTo(world, i, t);
-    impactSolver_.begin(bodies, sa, sb, manifold_, coefficients);
+    impactSolver_.begin(bodies, sa, sb, manifold_, *law);
     const Real impulse = impactSolver_.solve(bodies, world.friction, world.restitutionThreshold, bounces_);
     for (const std::uint32_t i : {a, b}) {
         if (!flying_[i]) continue;

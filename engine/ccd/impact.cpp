@@ -43,11 +43,15 @@ ImpactSolver<S>::ImpactSolver() : solver_(findAlgorithm(solverTable<S>(), "solve
 template <class S>
 void ImpactSolver<S>::begin(const BodyArrays<S>& bodies, const ShapeRecord<S>& shapeA,
                             const ShapeRecord<S>& shapeB, const Manifold<S>& manifold,
-                            const PairCoefficients<S>& coefficients) {
+                            const PreSolveAnswer<S>& law) {
     using Vec = typename S::Vec;
     const std::uint32_t a = shapeA.body, b = shapeB.body;
-    const bool driven = shapeA.hasSurfaceVelocity || shapeB.hasSurfaceVelocity;
-    const Velocity<S> surfaceA = surfaceNow(bodies, shapeA), surfaceB = surfaceNow(bodies, shapeB);
+    const PairCoefficients<S>& coefficients = law.coefficients;
+    const bool driven =
+        shapeA.hasSurfaceVelocity || shapeB.hasSurfaceVelocity || !law.surfaceVelocity.isZero(0);
+    const Velocity<S> surfaceA = surfaceNow(bodies, shapeA);
+    Velocity<S> surfaceB = surfaceNow(bodies, shapeB);
+    surfaceB.v += law.surfaceVelocity;
     const auto drive = [&](Row<S>& row) {
         if (driven) row.bias = rowVelocity<S>(row, surfaceA, surfaceB);
     };

@@ -4,6 +4,7 @@
 // The collision of two bodies at one instant.
 #pragma once
 
+#include "engine/contacts/pre_solve.hpp"
 #include "engine/contacts/shape_record.hpp"
 #include "engine/core/clone_ptr.hpp"
 #include "engine/narrowphase/manifold.hpp"
@@ -21,9 +22,9 @@ class ImpactSolver {
     using Real = typename S::Real;
     ImpactSolver();
 
-    /// The points of `manifold` become rows. bodies.invInertia is that of the instant.
+    /// The points of `manifold` become rows with the coefficients of `law`. bodies.invInertia is that of the instant.
     void begin(const BodyArrays<S>& bodies, const ShapeRecord<S>& a, const ShapeRecord<S>& b,
-               const Manifold<S>& manifold, const PairCoefficients<S>& coefficients);
+               const Manifold<S>& manifold, const PreSolveAnswer<S>& law);
     /// Changes the velocities of both bodies. Approaches slower than `threshold` do not bounce; `bounce`
     /// false: none does. Returns the sum of the normal impulses [N s].
     Real solve(BodyArrays<S>& bodies, FrictionLaw<S> friction, Real threshold, bool bounce);

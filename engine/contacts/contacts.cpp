@@ -8,6 +8,18 @@
 #include "engine/narrowphase/surface_contact.hpp"
 
 namespace rigor::engine {
+namespace {
+
+template <class S>
+void applyAnswer(const PreSolveAnswer<S>& answer, Contact<S>& contact) {
+    contact.coefficients = answer.coefficients;
+    if (answer.surfaceVelocity.isZero(0)) return;
+    if (!contact.driven) contact.surfaceA = contact.surfaceB = {};
+    contact.driven = true;
+    contact.surfaceB.v += answer.surfaceVelocity;
+}
+
+}  // namespace
 
 template <class S>
 void Contacts<S>::setExcluded(std::vector<std::uint64_t> pairs) {
@@ -130,10 +142,13 @@ void Contacts<S>::callPreSolve(const BodyArrays<S>& bodies) {
     std::vector<std::uint64_t> vetoed;
     for (Contact<S>& contact : list_) {
         const ShapeRecord<S>&a = shapes_[contact.shapeA], &b = shapes_[contact.shapeB];
-        if (!isAsleep<S>(bodies, contact))
-            contact.vetoed = !engine::callPreSolve<S>(preSolve_, bodies, a, b, contact.piece,
-                                                      contact.manifold, bodies.pose[contact.bodyA].p,
-                                                      bodies.pose[contact.bodyB].p, contact.coefficients);
+        if (!isAsleep<S>(bodies, contact)) {
+            const auto answer =
+                preSolve_(bodies, a, b, contact.piece, contact.manifold, bodies.pose[contact.bodyA].p,
+                          bodies.pose[contact.bodyB].p, contact.coefficients);
+            contact.vetoed = !answer.has_value();
+            if (answer) applyAnswer(*answer, contact);
+        }
         if (!contact.vetoed) continue;
         contact.touching = false;
         contact.impulses.fill({});
@@ -142,6 +157,17 @@ void Contacts<S>::callPreSolve(const BodyArrays<S>& bodies) {
     }
     std::sort(vetoed.begin(), vetoed.end());
     filter_.setVetoed(std::move(vetoed));
+}
+
+template <class S>
+std::optional<PreSolveAnswer<S>> Contacts<S>::lawOfImpact(const BodyArrays<S>& bodies, std::uint32_t shapeA,
+                                                          std::uint32_t shapeB, const Manifold<S>& manifold,
+                                                          const typename S::Vec& pA,
+                                                          const typename S::Vec& pB) const {
+    const ShapeRecord<S>&a = shapes_[shapeA], &b = shapes_[shapeB];
+    const PairCoefficients<S> coefficients = materials_.pair(a.material, b.material);
+    if (!preSolve_) return PreSolveAnswer<S>{coefficients};
+    return preSolve_(bodies, a, b, kNullIndex, manifold, pA, pB, coefficients);
 }
 
 template <class S>

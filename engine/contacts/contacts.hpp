@@ -18,6 +18,7 @@
 // says that they are others.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine/contacts/candidates.hpp"
@@ -61,12 +62,16 @@ class Contacts {
     void bodyMoved(std::uint32_t from, std::uint32_t to);
     /// Must be called after a shape has got another material.
     void materialsChanged() { coefficientsOf_ = 0; }
-    /// Sets the callback that is called for each contact before it is solved; null: none.
-    void setPreSolve(PreSolve<S> callback) {
-        preSolve_ = std::move(callback);
+    /// Sets the callback that is called for each contact before it is solved.
+    void setPreSolve(PreSolveCall<S> call) {
+        preSolve_ = std::move(call);
         coefficientsOf_ = 0;
     }
-    const PreSolve<S>& preSolve() const { return preSolve_; }
+    /// The law of an impact of two shapes that continuous collision has found, with their bodies' centres of mass at
+    /// pA and pB: of their materials, or of the callback. Nothing: the callback refuses it.
+    std::optional<PreSolveAnswer<S>> lawOfImpact(const BodyArrays<S>& bodies, std::uint32_t shapeA,
+                                                 std::uint32_t shapeB, const Manifold<S>& manifold,
+                                                 const typename S::Vec& pA, const typename S::Vec& pB) const;
     Sensors<S>& sensors() { return sensors_; }
     const Sensors<S>& sensors() const { return sensors_; }
 
@@ -117,7 +122,7 @@ class Contacts {
     ContactEvents<S> events_;
     std::vector<Event<S>> removedEvents_;  ///< ends of contacts whose shapes were removed since the last step
     Sensors<S> sensors_;
-    PreSolve<S> preSolve_;
+    PreSolveCall<S> preSolve_;
     ContactSearch<S> search_;  ///< search distances of this step
     /// Revision of the materials that the coefficients of the list are from; 0: some may be from none.
     std::uint64_t coefficientsOf_ = 0;

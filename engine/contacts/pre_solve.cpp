@@ -20,9 +20,12 @@ bool inRange(const PairCoefficients<S>& c) {
 }  // namespace
 
 template <class S>
-bool callPreSolve(const PreSolve<S>& callback, const BodyArrays<S>& bodies, const ShapeRecord<S>& a,
-                  const ShapeRecord<S>& b, std::uint32_t piece, const Manifold<S>& manifold,
-                  const typename S::Vec& pA, const typename S::Vec& pB, PairCoefficients<S>& coefficients) {
+std::optional<PreSolveAnswer<S>> PreSolveCall<S>::operator()(const BodyArrays<S>& bodies,
+                                                             const ShapeRecord<S>& a, const ShapeRecord<S>& b,
+                                                             std::uint32_t piece, const Manifold<S>& manifold,
+                                                             const typename S::Vec& pA,
+                                                             const typename S::Vec& pB,
+                                                             const PairCoefficients<S>& coefficients) const {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
     PreSolveContact<S> contact;
@@ -39,19 +42,18 @@ bool callPreSolve(const PreSolve<S>& callback, const BodyArrays<S>& bodies, cons
     if (manifold.count > 0) middle /= static_cast<Real>(manifold.count);
     const Velocity<S>&A = bodies.velocity[a.body], &B = bodies.velocity[b.body];
     contact.velocity = B.v + cross(B.w, Vec(middle - pB)) - A.v - cross(A.w, Vec(middle - pA));
-    callback(contact);
-    if (contact.veto) return false;
+    callback_(contact);
+    if (contact.veto) return std::nullopt;
     if (!inRange<S>(contact.coefficients))
         throw EngineError("pre_solve", "a callback has set coefficients that are out of range");
-    coefficients = contact.coefficients;
-    return true;
+    if (!contact.surfaceVelocity.allFinite())
+        throw EngineError("pre_solve", "a callback has set a surface velocity that is not finite");
+    if (contact.coefficients.hasMoments() && !moments_)
+        throw EngineError("material_moments",
+                          "a callback has set rolling or torsional friction, which the solver does not have");
+    return PreSolveAnswer<S>{contact.coefficients, contact.surfaceVelocity};
 }
 
-#define RIGOR_INSTANTIATE(S)                                                                               \
-    template bool callPreSolve<S>(const PreSolve<S>&, const BodyArrays<S>&, const ShapeRecord<S>&,         \
-                                  const ShapeRecord<S>&, std::uint32_t, const Manifold<S>&, const S::Vec&, \
-                                  const S::Vec&, PairCoefficients<S>&);
-RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
-#undef RIGOR_INSTANTIATE
+RIGOR_INSTANTIATE_CLASS(PreSolveCall)
 
 }  // namespace rigor::engine

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // A program's own say in a contact before a step solves it: it may refuse the contact for this step (a platform
-// that is solid from above only) or change its coefficients (ice where it rains).
+// that is solid from above only), change its coefficients (ice where it rains), or let a surface move over its body
+// (a conveyor that starts and stops).
 //
 // The callback is called by the thread that steps the world, once per step for each contact of two shapes that
 // touch or nearly do, in the order of World::manifolds(), when all contacts have been found and before any body has
@@ -13,7 +14,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "engine/contacts/shape_record.hpp"
 #include "engine/narrowphase/manifold.hpp"
@@ -34,17 +37,43 @@ struct PreSolveContact {
 
     // --- what the callback may change, for this step
     PairCoefficients<S> coefficients;  ///< at first the coefficients of the two materials
-    bool veto = false;                 ///< true: the two do not touch
+    /// Added to the velocity of B's surface over A's at all points of the contact [m/s], world frame; the part along
+    /// the normal has no effect. Velocities of the shapes' own surfaces (ShapeDef::surfaceVelocity) stay.
+    typename S::Vec surfaceVelocity = S::Vec::Zero();
+    bool veto = false;  ///< true: the two do not touch
 };
 
 template <class S>
 using PreSolve = std::function<void(PreSolveContact<S>&)>;
 
-/// Calls the callback for the contact of two shapes whose bodies' centres of mass are at pA and pB. Returns false for a veto,
-/// else replaces the coefficients. Throws EngineError "pre_solve" where these are out of range.
+/// What a callback has decided for a contact that it did not refuse.
 template <class S>
-bool callPreSolve(const PreSolve<S>& callback, const BodyArrays<S>& bodies, const ShapeRecord<S>& a,
-                  const ShapeRecord<S>& b, std::uint32_t piece, const Manifold<S>& manifold,
-                  const typename S::Vec& pA, const typename S::Vec& pB, PairCoefficients<S>& coefficients);
+struct PreSolveAnswer {
+    PairCoefficients<S> coefficients;
+    typename S::Vec surfaceVelocity = S::Vec::Zero();  ///< as PreSolveContact::surfaceVelocity
+};
+
+/// The callback of a world; false: none is set.
+template <class S>
+class PreSolveCall {
+  public:
+    PreSolveCall() = default;
+    /// `moments`: the world's solver has rolling and torsional friction.
+    PreSolveCall(PreSolve<S> callback, bool moments) : callback_(std::move(callback)), moments_(moments) {}
+
+    explicit operator bool() const { return callback_ != nullptr; }
+    /// Calls the callback for the contact of two shapes whose bodies' centres of mass are at pA and pB. Nothing: a veto.
+    /// Throws EngineError "pre_solve" where its coefficients or velocity are out of range, "material_moments" where the
+    /// solver does not have the friction that they ask for.
+    std::optional<PreSolveAnswer<S>> operator()(const BodyArrays<S>& bodies, const ShapeRecord<S>& a,
+                                                const ShapeRecord<S>& b, std::uint32_t piece,
+                                                const Manifold<S>& manifold, const typename S::Vec& pA,
+                                                const typename S::Vec& pB,
+                                                const PairCoefficients<S>& coefficients) const;
+
+  private:
+    PreSolve<S> callback_;
+    bool moments_ = true;
+};
 
 }  // namespace rigor::engine

@@ -203,6 +203,11 @@ Velocity<S> World<S>::surfaceVelocity(ShapeId shape) const {
 }
 
 template <class S>
+void World<S>::setPreSolve(PreSolve<S> callback) {
+    parts_.contacts.setPreSolve({std::move(callback), solverTraits(def().solver).moments});
+}
+
+template <class S>
 void World<S>::setPose(BodyId body, const Pose<S>& pose) {
     require(!stepping(), "step_in_progress", "poses cannot be set between the phases of a step");
     require(validPose<S>(pose), "body_pose", "position must be finite, orientation a unit rotation");

@@ -80,11 +80,11 @@ class World {
         return Step<S>::next(parts_, step_).substep;
     }  ///< sub-step of the next phase: 0 .. substeps() - 1
     void runPhase();
-    /// Sets the callback that may refuse a contact, or change its coefficients, before a step solves it
-    /// (contacts/pre_solve.hpp); null: none. Copies of the world have the same callback. What it throws ends the step
+    /// Sets the callback that may refuse a contact, change its coefficients, or let its surfaces move, before a step
+    /// solves it (contacts/pre_solve.hpp); null: none. Copies of the world have the same callback. What it throws ends the step
     /// where it is and leaves step(); the world may go on from there, or from a snapshot. A callback may read the world
     /// but not change it.
-    void setPreSolve(PreSolve<S> callback) { parts_.contacts.setPreSolve(std::move(callback)); }
+    void setPreSolve(PreSolve<S> callback);
     /// Sets the observer of the solver, null: none. Copies of the world have the same observer.
     void observeIterations(IterationObserver<S> observer) { step_.observer = std::move(observer); }
 

@@ -6,12 +6,14 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "engine/core/error.hpp"
 #include "engine/embedding/tests/tick.hpp"
 #include "engine/pipeline/tests/scene.hpp"
 #include "engine/shapes/surface.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine::test {
 namespace {
@@ -151,6 +153,60 @@ TYPED_TEST(PreSolveCall, ChangesRestitution) {
     EXPECT_GT(fastest, 2);
 }
 
+/// A belt that a callback drives at 1.5 m/s pulls a cube along with mu g until it has the speed of the belt, whichever of
+/// the two is A; when the callback no longer drives it the cube stops.
+TYPED_TEST(PreSolveCall, DrivesASurface) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const char* solver : {"by_island", "wide", "pgs"})
+        for (const bool beltIsA : {true, false}) {
+            WorldDef<S> def = earth<S>();
+            def.solver = solver;
+            World<S> world(def);
+            const auto material = world.addMaterial(R(0.5), 0);
+            BodyId belt;
+            if (beltIsA) belt = addGround<S>(world, material);
+            const BodyId box = addCube<S>(world, 0, 0.5, 0.5, 1, material);
+            if (!beltIsA) belt = addGround<S>(world, material);
+            R speed = R(1.5);
+            world.setPreSolve([&](PreSolveContact<S>& contact) {
+                EXPECT_EQ(contact.surfaceVelocity[0], 0) << "called with none in each step";
+                contact.surfaceVelocity[0] = contact.bodyA == belt ? -speed : speed;
+            });
+            for (int i = 0; i < 12; ++i) world.step(R(kTick));
+            EXPECT_NEAR(double(world.velocity(box)[0]), 0.5 * kGravity * 12 * kTick, 5e-3) << solver;
+            for (int i = 0; i < 30; ++i) world.step(R(kTick));
+            EXPECT_NEAR(double(world.velocity(box)[0]), 1.5, 1e-3) << solver;
+            speed = 0;
+            for (int i = 0; i < 30; ++i) world.step(R(kTick));
+            EXPECT_NEAR(double(world.velocity(box)[0]), 0, 1e-3) << solver;
+        }
+}
+
+/// The same in an impact that continuous collision solves: the impulse of friction is mu times the normal one.
+TYPED_TEST(PreSolveCall, DrivesASurfaceInAnImpact) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    WorldDef<S> def = earth<S>();
+    def.gravity.setZero();
+    def.continuousCollision = "conservative_advancement";
+    World<S> world(def);
+    const auto material = world.addMaterial(R(0.25), 0);
+    const BodyId belt = addPlatform<S>(world, 0);
+    BodyDef<S> fast;
+    fast.pose.p = at<S>(0, 3);
+    fast.velocity = at<S>(0, -200);
+    const BodyId ball = world.addBody(fast);
+    attach<S>(world, ball, Sphere<S>{R(0.05)}, material);
+    world.setPreSolve([&](PreSolveContact<S>& contact) {
+        contact.coefficients.friction = R(0.25);
+        contact.surfaceVelocity[0] = contact.bodyA == belt ? R(-500) : R(500);
+    });
+    world.step(R(kTick));
+    EXPECT_NEAR(double(world.velocity(ball)[1]), 0, 1e-3);
+    EXPECT_NEAR(double(world.velocity(ball)[0]), 0.25 * 200, 1e-2);
+}
+
 /// The order is that of the contacts, whatever the threads; it is not called for sleeping contacts.
 TYPED_TEST(PreSolveCall, IsCalledInTheOrderOfContacts) {
     using S = TypeParam;
@@ -221,10 +277,32 @@ TYPED_TEST(PreSolveCall, MayThrow) {
     EXPECT_FALSE(world.stepping());
     world.setPreSolve([](PreSolveContact<S>& contact) { contact.coefficients.friction = -1; });
     EXPECT_THROW(world.step(R(kTick)), EngineError);
+    world.setPreSolve([](PreSolveContact<S>& contact) { contact.surfaceVelocity[0] = R(NAN); });
+    EXPECT_THROW(world.step(R(kTick)), EngineError);
     world.setPreSolve({});
     for (int i = 0; i < 30; ++i) world.step(R(kTick));
     EXPECT_NEAR(double(world.pose(box).p[1]), 0.5, 1e-3);
     EXPECT_NEAR(world.time(), 30 * kTick, 1e-6);
+}
+
+/// A solver without rolling friction refuses it from a callback as it does from a material.
+TYPED_TEST(PreSolveCall, IsHeldToWhatTheSolverHas) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const char* solver : {"xpbd", "pgs"}) {
+        WorldDef<S> def = earth<S>();
+        def.solver = solver;
+        World<S> world(def);
+        addGround<S>(world, kUsualMaterial);
+        addBall<S>(world, 0, 0.25, 0.25, 1, kUsualMaterial);
+        world.setPreSolve(
+            [](PreSolveContact<S>& contact) { contact.coefficients.rollingFriction = R(0.01); });
+        if (solverTraits(solver).moments)
+            EXPECT_NO_THROW(world.step(R(kTick)));
+        else
+            EXPECT_THROW(world.step(R(kTick)), EngineError);
+        EXPECT_EQ(solverTraits(solver).moments, std::string(solver) == "pgs");
+    }
 }
 
 /// A callback that changes nothing changes no bit.
