@@ -14,9 +14,9 @@
 
 namespace rigor::scenario {
 
-/// More is a mistake in a file: growth curves of the bench go to some 10^4 bodies, and a body costs about a
+/// More is a mistake in a file: growth curves of the bench go to 10^5 bodies, and a body costs about a
 /// kilobyte of JSON while it is read.
-inline constexpr int kMaxBodies = 50000;
+inline constexpr int kMaxBodies = 200000;
 
 struct Generated {
     std::vector<Json> bodies, joints;

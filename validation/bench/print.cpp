@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <set>
 
+#include "validation/bench/growth.hpp"
 #include "validation/bench/text_table.hpp"
 #include "validation/results/spec_labels.hpp"
 
@@ -66,9 +67,7 @@ const BenchRepetition* lookOf(const BenchCase& c) {
 }
 
 std::string memory(const BenchCase& c) {
-    std::int64_t most = 0;
-    for (const BenchRepetition& r : c.repetitions)
-        if (r.round > 0) most = std::max(most, r.ownMemoryKiB);
+    const std::int64_t most = worldMemory(c);
     return most > 0 ? number(most / 1024.0) : "-";
 }
 
@@ -260,6 +259,22 @@ std::string keyText(const Labels& labels) {
     return text.empty() ? "" : "Engines in full:\n" + text + "\n";
 }
 
+/// Exponents of growth where cases differ by their size alone; "" where none do.
+std::string growthText(const Bench& bench, const Labels& labels) {
+    const auto cell = [](const std::optional<double>& p) { return p ? number(*p, "%.2f") : "-"; };
+    std::vector<Row> rows;
+    for (const Growth& g : growthsOf(bench.cases))
+        rows.push_back({g.part == "scene" ? g.name : g.part + ", " + g.name, labels.at(g.engine),
+                        std::to_string(g.threads), number(g.from, "%.0f"), number(g.to, "%.0f"), g.sizeUnit,
+                        cell(g.time), cell(g.longest), cell(g.contacts), cell(g.memory)});
+    if (rows.empty()) return "";
+    return "Growth with the size: exponents p of ~ size^p\n" +
+           tableText(
+               {"work", "engine", "threads", "from", "to", "", "time", "longest", "contacts", "MiB", ""},
+               rows) +
+           "\n";
+}
+
 /// A case in few words, its engine by its label.
 std::string shortName(const BenchCase& c, const Labels& labels) {
     BenchCase named = c;
@@ -306,7 +321,7 @@ std::string benchText(const results::Run& run, bool colour) {
         counted = counted || allocations(c) != "-";
         asleep = asleep || countOf(c, "asleep") > 0.0;
     }
-    text += keyText(labels);
+    text += growthText(bench, labels) + keyText(labels);
     const auto note = [&](const std::string& words) { text += wrapped(words, kTextWidth, 0); };
     note(
         "median: over repetitions, each a process of its own, engines in random order; CPU time of all "

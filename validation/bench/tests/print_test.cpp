@@ -3,12 +3,15 @@
 //
 // Tables of a bench for a terminal: narrow whatever the specs, and nothing is lost.
 #include "validation/bench/print.hpp"
+#include "validation/bench/growth.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sstream>
 
+#include "validation/bench/growth.hpp"
 #include "validation/bench/text_table.hpp"
 
 namespace rigor::validation {
@@ -114,6 +117,39 @@ TEST(Print, SpecsStandInFullOnceAndRowsByTheirLabels) {
     plain.bench.cases = {timed("bullet"), timed("rigor:solver=wide")};
     plain.bench.cases[1].engine = "rigor";
     EXPECT_THAT(benchText(plain, false), Not(HasSubstr("in full")));
+}
+
+/// Times of N log N: the exponent between N and 10 N is 1 + log10(log 10 N / log N).
+TEST(Print, GrowthIsByExponents) {
+    results::Run run;
+    run.bench.settings = {{"width", "0.05"}, {"build", "optimised"}};
+    for (const double size : {1e4, 1e2, 1e3}) {  // not in order
+        results::BenchCase c = timed("bullet");
+        c.size = size;
+        c.summary.cpu = 1e-6 * size * std::log(size);
+        for (auto& r : c.repetitions) {
+            r.ownMemoryKiB = static_cast<std::int64_t>(8.0 * size);
+            r.counts = {{"contacts", std::pow(size, 1.5)}};
+        }
+        run.bench.cases.push_back(c);
+    }
+    const auto growths = growthsOf(run.bench.cases);
+    ASSERT_EQ(growths.size(), 2u);
+    EXPECT_EQ(growths[0].from, 1e2);
+    EXPECT_EQ(growths[1].to, 1e4);
+    EXPECT_NEAR(growths[0].time, 1.0 + std::log10(1.5), 1e-12);
+    EXPECT_NEAR(growths[1].time, 1.0 + std::log10(4.0 / 3.0), 1e-12);
+    EXPECT_NEAR(growths[1].memory.value_or(0.0), 1.0, 1e-12);
+    EXPECT_NEAR(growths[1].contacts.value_or(0.0), 1.5, 1e-12);
+    EXPECT_FALSE(growths[1].longest) << "not measured";
+    EXPECT_THAT(benchText(run, false), HasSubstr("exponents p of ~ size^p"));
+    run.bench.cases[2].summary.valid = false;
+    ASSERT_EQ(growthsOf(run.bench.cases).size(), 1u);
+    EXPECT_NEAR(growthsOf(run.bench.cases)[0].time, 1.0 + 0.5 * std::log10(2.0), 1e-12)
+        << "from 100 to 10 000";
+    run.bench.cases[1].threads = 2;
+    EXPECT_TRUE(growthsOf(run.bench.cases).empty());
+    EXPECT_THAT(benchText(run, false), Not(HasSubstr("Growth")));
 }
 
 TEST(Print, ChangesAreNamedByLabels) {
