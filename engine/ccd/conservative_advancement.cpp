@@ -40,8 +40,8 @@
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/ccd/impact.hpp"
 #include "engine/ccd/surface_impact.hpp"
-#include "engine/ccd/time_of_impact.hpp"
 #include "engine/ccd/traits.hpp"
+#include "engine/contacts/time_of_impact.hpp"
 #include "engine/state/sleep.hpp"
 
 namespace rigor::engine {

@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/ccd/moving_shape.hpp"
 #include "engine/contacts/contacts.hpp"
 #include "engine/contacts/look_ahead.hpp"
+#include "engine/contacts/moving_shape.hpp"
 #include "engine/core/table.hpp"
 #include "engine/integrators/motion.hpp"
 #include "engine/narrowphase/manifold.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "engine/ccd/flight_impacts.hpp"
-#include "engine/ccd/moving_shape.hpp"
+#include "engine/contacts/moving_shape.hpp"
 
 namespace rigor::engine {
 namespace {

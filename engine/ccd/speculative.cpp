@@ -35,8 +35,8 @@
 // stops nothing.
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/ccd/surface_impact.hpp"
-#include "engine/ccd/time_of_impact.hpp"
 #include "engine/ccd/traits.hpp"
+#include "engine/contacts/time_of_impact.hpp"
 
 namespace rigor::engine {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "engine/ccd/time_of_impact.hpp"
+#include "engine/contacts/time_of_impact.hpp"
 
 namespace rigor::engine {
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/contacts/time_of_impact.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
 #include "engine/narrowphase/surface_contact.hpp"
 
@@ -223,6 +224,27 @@ void ContactUpdate<S>::dropFarPoints(Candidate<S>& candidate, Manifold<S>& manif
     }
     if (kept < manifold.count) candidate.cached = false;
     manifold.count = kept;
+    if (candidate.piece == kNullIndex && isApart(manifold, near) && !mayMeet(candidate)) {
+        manifold.count = 0;
+        candidate.cached = false;
+    }
+}
+
+/// True unless two shapes that are apart are known not to meet in this step. The plane between them would stop what
+/// passes beside it, so that the straight ways of bodies in flight are looked at. Bodies that touch others may be pushed
+/// off theirs. Impacts of fast shapes are left to continuous collision, which has them at their times.
+template <class S>
+bool ContactUpdate<S>::mayMeet(const Candidate<S>& candidate) const {
+    const auto moving = [&](const ShapeRecord<S>& shape) -> MovingShape<S> {
+        return {
+            &shape.shape,         shape.local,          bodies.pose[shape.body], bodies.velocity[shape.body],
+            shape.boundingRadius, shape.inscribedRadius};
+    };
+    const ShapeRecord<S>&a = shapes[candidate.a], &b = shapes[candidate.b];
+    const MovingShape<S> A = moving(a), B = moving(b);
+    const bool continuous = bodies.constants[a.body].continuous || bodies.constants[b.body].continuous;
+    if (continuous && mayPassUnseen<S>(A, B, motionTime)) return false;
+    return touched[a.body] || touched[b.body] || timeOfImpact<S>(A, B, motionTime).hit;
 }
 
 RIGOR_INSTANTIATE_CLASS(ContactUpdate)

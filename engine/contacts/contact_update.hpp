@@ -14,6 +14,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "engine/contacts/contact_cache.hpp"
 #include "engine/contacts/look_ahead.hpp"
@@ -34,6 +35,8 @@ struct ContactUpdate {
     bool coefficientsHold;        ///< coefficients of persisting contacts are those of their materials
     typename S::Real motionTime;  ///< ContactSearch::longestMotionTime() [s]
     bool bouncesAhead;            ///< ContactSearch::bouncesAhead
+    std::span<const std::uint8_t>
+        touched;  ///< dynamic bodies that touched something in the last step; where ahead
 
     /// Updates a contact of the last step. False: it has ended.
     bool update(Candidate<S>& candidate, Contact<S>& contact) const;
@@ -45,6 +48,7 @@ struct ContactUpdate {
 
     void query(Candidate<S>& candidate, Manifold<S>& manifold) const;
     void dropFarPoints(Candidate<S>& candidate, Manifold<S>& manifold) const;
+    bool mayMeet(const Candidate<S>& candidate) const;
     void makePoints(Candidate<S>& candidate, Contact<S>& contact) const;
     bool complete(Candidate<S>& candidate, Contact<S>& contact) const;
 };

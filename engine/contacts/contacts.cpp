@@ -118,6 +118,7 @@ void Contacts<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S
                                 const Tasks& tasks) {
     filter_.setVetoed({});
     candidates_.update(bodies, shapes_, filter_, pairs_, search_, tasks);
+    findTouched(bodies);
     // It keeps the points as they are.
     if (makeManifold == &manifoldClipped<S>) makeManifold = nullptr;
     const ContactUpdate<S> update{bodies,
@@ -129,10 +130,22 @@ void Contacts<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S
                                   ContactCache<S>(shapes_, search_.speculativeDistance),
                                   coefficientsOf_ == materials_.revision(),
                                   search_.longestMotionTime(),
-                                  search_.bouncesAhead};
+                                  search_.bouncesAhead,
+                                  touched_};
     finder_.run(update, pairs_.exact(), candidates_, list_, tasks);
     coefficientsOf_ = materials_.revision();
     if (preSolve_) callPreSolve(bodies);
+}
+
+template <class S>
+void Contacts<S>::findTouched(const BodyArrays<S>& bodies) {
+    if (search_.longestMotionTime() == 0) return;
+    touched_.assign(bodies.size(), 0);
+    for (const Contact<S>& contact : list_) {
+        if (!contact.touching) continue;
+        for (const std::uint32_t body : {contact.bodyA, contact.bodyB})
+            touched_[body] = bodies.constants[body].type == BodyType::Dynamic;
+    }
 }
 
 /// Contacts of bodies that sleep keep what they had.

@@ -109,6 +109,7 @@ class Contacts {
     bool completeRestored();
 
   private:
+    void findTouched(const BodyArrays<S>& bodies);
     void callPreSolve(const BodyArrays<S>& bodies);
 
     MaterialTable<S> materials_;
@@ -123,7 +124,8 @@ class Contacts {
     std::vector<Event<S>> removedEvents_;  ///< ends of contacts whose shapes were removed since the last step
     Sensors<S> sensors_;
     PreSolveCall<S> preSolve_;
-    ContactSearch<S> search_;  ///< search distances of this step
+    std::vector<std::uint8_t> touched_;  ///< ContactUpdate::touched
+    ContactSearch<S> search_;            ///< search distances of this step
     /// Revision of the materials that the coefficients of the list are from; 0: some may be from none.
     std::uint64_t coefficientsOf_ = 0;
 };

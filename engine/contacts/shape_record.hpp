@@ -25,7 +25,7 @@ struct ShapeRecord {
     ShapeFilter filter;
     bool sensor = false;           ///< it has no contacts (sensors.hpp)
     typename S::Real density = 0;  ///< as in ShapeDef; 0 of a sensor
-    /// Bounding radius of the core about the centre of mass, and inscribed radius (ccd/moving_shape.hpp) [m].
+    /// Bounding radius of the core about the centre of mass, and inscribed radius (contacts/moving_shape.hpp) [m].
     typename S::Real boundingRadius = 0, inscribedRadius = 0;
     typename S::Real radius = 0;              ///< bounding radius about the shape's own origin [m]
     typename S::Vec middle = S::Vec::Zero();  ///< a point well inside, in the frame of the shape [m]

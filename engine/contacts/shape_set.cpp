@@ -62,6 +62,9 @@ void ShapeSet<S>::update(const BodyArrays<S>& bodies, const ContactSearch<S>& se
     boxes_.resize(n);
     movable_.resize(n);
     motions_.resize(n);
+    ways_.resize(n);
+    turns_.resize(n);
+    speculativeDistance_ = search.speculativeDistance;
     ahead_.resize(n);
     const Real motionTime = search.longestMotionTime();
     tolerance_.resize(n, search.cacheTolerance);
@@ -83,7 +86,8 @@ void ShapeSet<S>::update(const BodyArrays<S>& bodies, const ContactSearch<S>& se
             boxes_[i].min -= grown;
             boxes_[i].max += grown;
         }
-        motions_[i] = 0;
+        motions_[i] = turns_[i] = 0;
+        ways_[i].setZero();
         ahead_[i] = search.motionTime > 0 || bodies.islands[record.body] == IslandSize::Large;
         if (!isStatic && motionTime > 0)
             growByMotion(bodies, i, search.speculativeDistance + tolerance_[i], motionTime);
@@ -100,6 +104,8 @@ void ShapeSet<S>::growByMotion(const BodyArrays<S>& bodies, std::size_t i, Real 
     const Vec way = time * velocity.v;
     const Real turn = time * std::sqrt(dotAng(velocity.w, velocity.w)) * record.boundingRadius;
     const Real motion = way.norm() + turn;
+    ways_[i] = way;
+    turns_[i] = turn;
     if (!(motion > margin)) return;
     const Real share = std::min(Real(1), Real(2) * record.radius / motion);
     motions_[i] = share * motion;

@@ -14,6 +14,7 @@
 // and stay until changed().
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -64,10 +65,15 @@ class ShapeSet {
     /// Cache tolerance of a shape's contacts in this step; that of two shapes is the larger [m].
     Real tolerance(std::size_t i) const { return tolerance_[i]; }
     const std::vector<std::uint8_t>& movable() const { return movable_; }
-    /// Distance along the motion of two shapes in which their contacts are looked for, up to their size; 0 if they
-    /// are slow, or not looked ahead [m].
+    /// Distance along the relative motion of two shapes in which their contacts are looked for, up to their size; 0 if
+    /// they are slow, move together, or are not looked ahead [m].
     Real motion(std::size_t i, std::size_t k) const {
-        return ahead_[i] || ahead_[k] ? motions_[i] + motions_[k] : Real(0);
+        const Real most = motions_[i] + motions_[k];
+        if (most == 0 || !(ahead_[i] || ahead_[k])) return 0;
+        const Real relative = (ways_[i] - ways_[k]).norm() + turns_[i] + turns_[k];
+        return relative > speculativeDistance_ + std::max(tolerance_[i], tolerance_[k])
+                   ? std::min(relative, most)
+                   : Real(0);
     }
     /// Indices of the shapes that are chains, meshes or height fields, and no sensors.
     const std::vector<std::uint32_t>& surfaces() const { return surfaces_; }
@@ -84,9 +90,12 @@ class ShapeSet {
     BoundingVolume volume_;
     std::vector<Real> tolerance_;
     std::vector<std::uint8_t> movable_;
-    std::vector<Real> motions_;
-    std::vector<std::uint8_t> ahead_;  ///< contacts of the shape are looked for ahead
-    bool staticsValid_ = false;        ///< poses and boxes of static bodies are computed
+    Real speculativeDistance_ = 0;
+    std::vector<Real> motions_;          ///< of fast shapes, up to their size [m]
+    std::vector<typename S::Vec> ways_;  ///< ahead, of their bodies' centres of mass [m]
+    std::vector<Real> turns_;            ///< how far turning moves a point of theirs at most [m]
+    std::vector<std::uint8_t> ahead_;    ///< contacts of the shape are looked for ahead
+    bool staticsValid_ = false;          ///< poses and boxes of static bodies are computed
 };
 
 }  // namespace rigor::engine

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "engine/ccd/moving_shape.hpp"
+#include "engine/contacts/moving_shape.hpp"
 #include "engine/pipeline/pose_check.hpp"
 #include "engine/pipeline/require.hpp"
 #include "engine/shapes/inner_sphere.hpp"

@@ -174,6 +174,25 @@ void World<S>::applyImpulse(BodyId body, const Vec& impulse, const Ang& angularI
 }
 
 template <class S>
+void World<S>::applyForceAt(BodyId body, const Vec& force, const Vec& point) {
+    const Vec& center = parts_.bodies.arrays().pose[parts_.bodies.dense(body)].p;
+    applyForce(body, force, cross(Vec(point - center), force));
+}
+
+template <class S>
+void World<S>::applyImpulseAt(BodyId body, const Vec& impulse, const Vec& point) {
+    const Vec& center = parts_.bodies.arrays().pose[parts_.bodies.dense(body)].p;
+    applyImpulse(body, impulse, cross(Vec(point - center), impulse));
+}
+
+template <class S>
+typename S::Vec World<S>::velocityAt(BodyId body, const Vec& point) const {
+    const std::uint32_t i = parts_.bodies.dense(body);
+    const Velocity<S>& velocity = parts_.bodies.arrays().velocity[i];
+    return velocity.v + cross(velocity.w, Vec(point - parts_.bodies.arrays().pose[i].p));
+}
+
+template <class S>
 void World<S>::setVelocity(BodyId body, const Vec& velocity, const Ang& angularVelocity) {
     require(velocity.allFinite() && finiteAng(angularVelocity), "body_velocity", "velocities must be finite");
     const std::uint32_t i = parts_.bodies.dense(body);

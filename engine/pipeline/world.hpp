@@ -69,6 +69,9 @@ class World {
     void applyForce(BodyId body, const Vec& force, const Ang& torque);
     /// Changes linear and angular momentum at once [N s], [N m s].
     void applyImpulse(BodyId body, const Vec& impulse, const Ang& angularImpulse);
+    /// The same at a point of the world frame [m]: force, with its moment about the centre of mass.
+    void applyForceAt(BodyId body, const Vec& force, const Vec& point);
+    void applyImpulseAt(BodyId body, const Vec& impulse, const Vec& point);
     /// Advances by h [s], > 0.
     const StepResult<S>& step(Real h);
     /// The same a phase at a time: beginStep(h), then runPhase() while stepping(). Between phases everything
@@ -128,6 +131,8 @@ class World {
     }  ///< velocity of the centre of
        ///< mass
     Ang angularVelocity(BodyId body) const { return parts_.bodies.velocity(body).w; }
+    Vec velocityAt(BodyId body,
+                   const Vec& point) const;  ///< velocity of the body's point at `point`, world frame
     const BodyConstants<S>& constants(BodyId body) const { return parts_.bodies.constants(body); }
     void setVelocity(BodyId body, const Vec& velocity, const Ang& angularVelocity);
     /// Velocity of a shape's surface over its body, as ShapeDef::surfaceVelocity; wakes what may rest on it. Throws

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/pipeline/world_parts.hpp"
 
-#include "engine/ccd/moving_shape.hpp"
 #include "engine/ccd/traits.hpp"
+#include "engine/contacts/moving_shape.hpp"
 #include "engine/state/sleep.hpp"
 
 namespace rigor::engine {

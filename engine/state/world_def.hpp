@@ -55,7 +55,7 @@ template <class S>
 struct BodyDef {
     using Real = typename S::Real;
     BodyType type = BodyType::Dynamic;
-    Pose<S> pose;                                    ///< pose of the body frame in the world frame
+    Pose<S> pose = {};                               ///< pose of the body frame in the world frame
     typename S::Vec velocity = S::Vec::Zero();       ///< velocity of the centre of mass in the world frame
                                                      ///< [m/s]
     typename S::Ang angularVelocity = zeroAng<S>();  ///< world frame [rad/s]
@@ -83,7 +83,7 @@ inline constexpr std::uint32_t kUsualMaterial = 1;  ///< friction 0.6, restituti
 template <class S>
 struct ShapeDef {
     Shape<S> shape;
-    Pose<S> pose;                             ///< shape frame in the body frame
+    Pose<S> pose = {};                        ///< shape frame in the body frame
     std::uint32_t material = kUsualMaterial;  ///< index from World::addMaterial, or one of the above
     /// Velocity at which the surface moves over the body, as of a conveyor belt or a turntable: that of the point
     /// at the origin of the body frame [m/s], and the angular velocity [rad/s], in the axes of the body frame. A

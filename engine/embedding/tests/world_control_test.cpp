@@ -50,6 +50,32 @@ WorldDef<S> sleepy(bool sleeps) {
     return def;
 }
 
+/// A force or an impulse at a point has the moment (point - centre of mass) x force; a point moves with v + w x r.
+TYPED_TEST(WorldControl, ForcesAndImpulsesActAtAPoint) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    World<S> world{WorldDef<S>{}};
+    BodyDef<S> def;
+    def.mass = 2;
+    def.inertia = isotropic<S>(0.5);
+    def.pose.p = at<S>(3, 4);
+    def.centerOfMass = at<S>(0.25, 0);
+    const BodyId body = world.addBody(def);
+    const typename S::Vec center = at<S>(3.25, 4), point = at<S>(3.75, 4), up = at<S>(0, 8);
+    world.applyImpulseAt(body, up, point);
+    // v = 8 / 2, w = 0.5 * 8 / 0.5 about the axis out of the plane.
+    EXPECT_NEAR(double(world.velocityAt(body, center)[1]), 4, 1e-5);
+    EXPECT_NEAR(double(world.velocityAt(body, point)[1]), 4 + 8 * 0.5, 1e-5);
+    EXPECT_NEAR(double(world.velocityAt(body, at<S>(3.25, 5))[0]), -8, 1e-5);
+    World<S> pushed{WorldDef<S>{}};
+    const BodyId other = pushed.addBody(def);
+    pushed.applyForceAt(other, typename S::Vec(up / R(kTick)), point);
+    pushed.step(R(kTick));
+    EXPECT_NEAR(double((pushed.velocity(other) - world.velocity(body)).norm()), 0, 1e-5);
+    EXPECT_NEAR(double(dotAng(pushed.angularVelocity(other), pushed.angularVelocity(other))), 64, 1e-3);
+    EXPECT_THROW(world.applyForceAt(body, at<S>(NAN, 0), point), EngineError);
+}
+
 TYPED_TEST(WorldControl, ABodyPutElsewhereFallsAndSoDoesWhatStoodOnIt) {
     using S = TypeParam;
     for (const bool sleeps : {false, true}) {

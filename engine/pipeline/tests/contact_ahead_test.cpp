@@ -4,6 +4,8 @@
 // WorldDef::speculativeMotion: contacts are found as far ahead as bodies move in the step.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/pipeline/tests/scene.hpp"
 #include "engine/shapes/surface.hpp"
 #include "engine/state/prefer_speed.hpp"
@@ -122,6 +124,27 @@ TYPED_TEST(ContactsAhead, PassingIsNoImpact) {
         EXPECT_EQ(world.velocity(ball).x(), R(kFall));
         EXPECT_NEAR(static_cast<double>(world.velocity(ball).y()), -0.5, 1e-6);
     }
+}
+
+/// A ball that passes another by 5 mm: the plane between them where the step begins would stop it, although it closes
+/// half of the distance only. With 5 mm less than their radii it is an impact.
+TYPED_TEST(ContactsAhead, ANearMissIsNoImpact) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const bool fast : {false, true})
+        for (const bool meets : {false, true}) {
+            WorldDef<S> def = lookingAhead<S>(fast, 1);
+            def.gravity.setZero();
+            World<S> world(def);
+            const BodyId still = addBall<S>(world, 0, 0, 0.5, 1, kFrictionless);
+            const double beside = meets ? 0.995 : 1.005;
+            const BodyId passing = addBall<S>(world, -0.25, beside, 0.5, 1, kFrictionless, 2 * kFall);
+            const double distance = std::hypot(0.25, beside), closing = 2 * kFall * 0.25 / distance;
+            ASSERT_LT(distance - closing / 60, 1) << "the plane alone stops it";
+            for (int i = 0; i < 3; ++i) world.step(R(1.0 / 60));
+            EXPECT_EQ(world.velocity(still).norm() > 0, meets) << "fast " << fast;
+            EXPECT_EQ(world.velocity(passing)[0] == R(2 * kFall), !meets) << "fast " << fast;
+        }
 }
 
 }  // namespace

@@ -20,7 +20,9 @@ TYPED_TEST(Contacts, ReboundIsExactlyTheCoefficientTimesTheApproach) {
     using S = TypeParam;
     using R = typename S::Real;
     for (const double e : {1.0, 0.7, 0.5, 0.0}) {
-        World<S> world(earth<S>());
+        WorldDef<S> def = earth<S>();
+        def.speculativeMotion = 0;  // the ball touches when its approach ends, whatever e
+        World<S> world(def);
         const std::uint32_t m = world.addMaterial(R(0.3), static_cast<R>(e));
         addGround<S>(world, m);
         const BodyId ball = addBall<S>(world, 0, 2, 0.5, 3, m);

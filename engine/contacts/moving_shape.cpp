@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "engine/ccd/moving_shape.hpp"
+#include "engine/contacts/moving_shape.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -24,7 +24,7 @@
 //
 // Cost: one closest-points query per step, 2 to 10 mostly. Limit: kMaxSteps, then the time reached is the
 // result, with converged = false: nothing has been missed until then.
-#include "engine/ccd/time_of_impact.hpp"
+#include "engine/contacts/time_of_impact.hpp"
 
 #include <algorithm>
 #include <cmath>

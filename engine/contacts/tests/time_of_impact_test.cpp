@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "engine/ccd/time_of_impact.hpp"
+#include "engine/contacts/time_of_impact.hpp"
 
 namespace rigor::engine {
 namespace {

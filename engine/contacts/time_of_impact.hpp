@@ -4,7 +4,7 @@
 // Time of impact of two moving convex shapes.
 #pragma once
 
-#include "engine/ccd/moving_shape.hpp"
+#include "engine/contacts/moving_shape.hpp"
 #include "engine/narrowphase/distance.hpp"
 #include "engine/narrowphase/manifold.hpp"
 
