@@ -100,10 +100,6 @@ class RigorEngine final : public EngineWithPresets {
     std::unique_ptr<ContactSolverEngine> contactSolvers_;
 };
 
-std::unique_ptr<Engine> makeRigor() {
-    return std::make_unique<RigorEngine>();
-}
-
 /// Everything that has a coordinate can be limited and sprung; only cones cannot be driven.
 void addJointCapabilities(const std::string& name, bool moves, std::vector<std::string>& joints) {
     joints.push_back(name);
@@ -133,6 +129,8 @@ Capabilities rigorCapabilities() {
     return c;
 }
 
-}  // namespace rigor::adapter
+std::unique_ptr<Engine> makeRigorEngine() {
+    return std::make_unique<RigorEngine>();
+}
 
-RIGOR_ADAPTER_MODULE(rigor::adapter::makeRigor)
+}  // namespace rigor::adapter

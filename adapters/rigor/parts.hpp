@@ -10,6 +10,9 @@
 
 namespace rigor::adapter {
 
+/// The engine with all of them.
+std::unique_ptr<Engine> makeRigorEngine();
+
 std::unique_ptr<DynamicsEngine> makeRigorDynamics();
 std::unique_ptr<CollisionEngine> makeRigorCollision();
 std::unique_ptr<BroadPhaseEngine> makeRigorBroadPhase();

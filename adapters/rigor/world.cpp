@@ -11,6 +11,7 @@
 #include "adapters/interface/pair_table.hpp"
 #include "adapters/interface/state_setting.hpp"
 #include "adapters/rigor/convert_joint.hpp"
+#include "adapters/rigor/native_world.hpp"
 #include "adapters/rigor/parts.hpp"
 #include "adapters/rigor/settings.hpp"
 #include "adapters/rigor/staged.hpp"
@@ -237,6 +238,7 @@ class RigorWorld final : public World, public StateSetting {
     bool isAsleep(int body) const override { return isDynamic(body) && world_.isAsleep(id(body)); }
     StagedWorld* staged() override { return &staged_; }
     std::unique_ptr<BatchWorlds> batch(std::size_t worlds, int threads) const;
+    NativeWorld<S> native() const { return {world_, bodies_, indices_.joint, materials_}; }
     Snapshots* snapshots() override { return &snapshots_; }
 
   private:
@@ -406,6 +408,11 @@ std::unique_ptr<BatchWorlds> RigorWorld<S>::batch(std::size_t worlds, int thread
     return std::make_unique<RigorWorlds<S>>(world_, dt_, bodies_, worlds, threads);
 }
 
+void checkBuild(const Scenario& scenario, double dt) {
+    checkScenarioInput(scenario, dt);
+    checkSupported(scenario, rigorCapabilities(), "rigor");
+}
+
 class RigorDynamics final : public BatchingEngine {
   public:
     std::unique_ptr<World> build(const Scenario& scenario, double dt,
@@ -423,8 +430,7 @@ class RigorDynamics final : public BatchingEngine {
     /// `take` of the world in the scenario's dimension and the precision of the settings.
     template <class Result, class Take>
     static Result made(const Scenario& scenario, double dt, const Settings& settings, const Take& take) {
-        checkScenarioInput(scenario, dt);
-        checkSupported(scenario, rigorCapabilities(), "rigor");
+        checkBuild(scenario, dt);
         const bool single = textSetting(settings, "precision") == "f32";
         try {
             if (scenario.dimension == 2) {
@@ -440,6 +446,20 @@ class RigorDynamics final : public BatchingEngine {
 };
 
 }  // namespace
+
+template <class S>
+NativeWorld<S> makeNativeWorld(const Scenario& scenario, double dt, const Settings& settings) {
+    checkBuild(scenario, dt);
+    try {
+        return RigorWorld<S>(scenario, dt, settings).native();
+    } catch (const std::invalid_argument& error) {
+        throw BadInput(error.what());
+    }
+}
+#define RIGOR_INSTANTIATE(S) \
+    template NativeWorld<S> makeNativeWorld<S>(const Scenario&, double, const Settings&);
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 std::unique_ptr<DynamicsEngine> makeRigorDynamics() {
     return std::make_unique<RigorDynamics>();

@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "engine/core/tasks.hpp"
-#include "engine/pipeline/world.hpp"
+#include "engine/embedding/body_numbers.hpp"
 
 namespace rigor::engine {
 
@@ -32,10 +32,6 @@ struct BatchSettings {
     int threads = 1;  ///< 1 .. 1024
 };
 
-/// Numbers of a body's state: position of the body frame [m], orientation (quaternion w, x, y, z; 2D: angle [rad],
-/// -pi .. pi), velocity of the centre of mass [m/s], angular velocity [rad/s], all in the world frame.
-template <class S>
-inline constexpr std::size_t kBodyState = S::dim == 2 ? 6 : 13;
 /// Numbers of a wrench: force [N], torque [N m].
 template <class S>
 inline constexpr std::size_t kBodyWrench = S::dim == 2 ? 3 : 6;

@@ -13,7 +13,7 @@ install(TARGETS rigor_engine EXPORT rigorTargets COMPONENT engine ARCHIVE DESTIN
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rigor)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/engine DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rigor COMPONENT engine
         FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN tests EXCLUDE PATTERN benchmarks EXCLUDE
-        PATTERN package EXCLUDE)
+        PATTERN package EXCLUDE PATTERN python EXCLUDE)
 install(EXPORT rigorTargets NAMESPACE rigor:: DESTINATION ${package_dir} COMPONENT engine)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rigorConfig.cmake.in rigorConfig.cmake
                               INSTALL_DESTINATION ${package_dir})

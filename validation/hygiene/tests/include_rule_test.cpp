@@ -52,6 +52,7 @@ const std::vector<Rule>& rules() {
         {"engine/embedding", {"engine/"}},
         {"engine/benchmarks", {"engine/"}},
         {"engine/package", {"engine/"}},
+        {"engine/python", {"engine/"}},
         {"engine", {"engine/"}},  // rule of engine/engine.hpp alone
         {"scenarios/model", {}},
         {"scenarios/json", {"scenarios/model/"}},
@@ -60,6 +61,9 @@ const std::vector<Rule>& rules() {
          {"scenarios/generators/", "scenarios/json/", "scenarios/model/", "scenarios/schema/"}},
         {"adapters/interface", {"scenarios/model/"}},
         {"adapters/conformance", {"adapters/interface/", "scenarios/"}},
+        {"adapters/rigor/python",
+         {"adapters/interface/", "adapters/rigor/", "scenarios/json/", "scenarios/loader/",
+          "scenarios/model/", "engine/"}},
         {"adapters/rigor", {"adapters/interface/", "scenarios/model/", "engine/"}},
         {"adapters", {"adapters/interface/", "scenarios/model/"}},
         {"validation/references",
