@@ -293,7 +293,8 @@ void defineQueries(WorldClass& world) {
 
 WorldClass bindWorld(py::module_& module) {
     WorldClass world(module, "World", kWorld);
-    world.def(py::init(&makeWorld), py::kw_only(), py::arg("dimension") = 3, py::arg("precision") = "f64",
+    // A positional argument: pybind11 tries overloads with keywords alone without conversions.
+    world.def(py::init(&makeWorld), py::arg("dimension") = 3, py::kw_only(), py::arg("precision") = "f64",
               py::arg("preset") = "default", py::arg("gravity") = py::none(), py::arg("dt") = 1.0 / 60,
               py::arg("settings") = py::dict(), kInit);
     defineBuilding(world);

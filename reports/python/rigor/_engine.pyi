@@ -76,8 +76,8 @@ class World:
     @overload
     def __init__(
         self,
-        *,
         dimension: int = 3,
+        *,
         precision: Literal["f32", "f64"] = "f64",
         preset: str = "default",
         gravity: Optional[npt.ArrayLike] = None,

@@ -143,8 +143,11 @@ def collide(
         ``random`` says how many random pairs to make from ``seed`` (of ``shapes``, in ``dimension`` 2 or 3).
     engines: specs; default: every engine, every algorithm.
 
-    Columns: case, file, dimension, tags, engine, verdict, and what the engine found: overlap, depth [m] (positive when
-    overlapping), distance [m], normal (unit, from a to b), and their errors against the oracle. NaN: not given.
+    Columns: case, file, dimension, tags, shape_a, shape_b, engine, verdict, message; what the engine found: overlap,
+    signed_distance and depth [m] (depth is positive where they overlap), normal (unit, from a to b), witness_a, witness_b [m],
+    contacts (how many), seconds; its errors against the oracle: distance_error [m], normal_angle [rad] (to the nearest right
+    normal), normal_excess, point_error [m]; and the oracle: exact_signed_distance, exact_overlap, exact_normals (all that are
+    right), ... NaN or None: not given.
     """
     with tempfile.TemporaryDirectory(prefix="rigor-") as folder:
         arguments = ["collide", *(_what(files, folder) if files is not None else [])]
@@ -159,11 +162,17 @@ def collide(
         result, _ = call(arguments + _option("--jobs", jobs) + ["--json", "--quiet"])
     rows = []
     for case in result["cases"]:
-        about = {"case": case["name"], "file": case["file"], "dimension": case["dimension"], "tags": case["tags"]}
+        about = {name: case[name] for name in ("file", "dimension", "tags")}
+        shapes_of = {f"shape_{side}": _kind(case.get(side)) for side in ("a", "b")}
         truth = {f"exact_{key}": value for key, value in case["truth"].items()}
-        for found in case["answers"]:
-            rows.append({**about, "engine": found["name"], **{k: v for k, v in found.items() if k != "name"}, **truth})
+        rows += [{"case": case["name"], **about, **shapes_of, **found, **truth} for found in case["answers"]]
     return _numeric(pd.DataFrame(rows))
+
+
+def _kind(shape: Any) -> str:
+    """The kind of a shape as files have it: {"box": {...}, "position": ...}."""
+    keys: list[str] = [key for key in shape or {} if key not in ("position", "orientation", "rotation", "angle", "angle_deg")]
+    return keys[0] if keys else ""
 
 
 def _numeric(frame: pd.DataFrame) -> pd.DataFrame:

@@ -21,7 +21,8 @@ BALL = {
     "gravity": [0, -9.81, 0],
     "duration": 0.5,
     "dt": [0.01],
-    "bodies": [{"name": "ball", "mass": 1, "shapes": [{"sphere": {"radius": 0.1}}]}],
+    "materials": {"rubber": {"friction": 0.5}},
+    "bodies": [{"name": "ball", "mass": 1, "shapes": [{"sphere": {"radius": 0.1}, "material": "rubber"}]}],
 }
 
 
@@ -65,11 +66,13 @@ class Others(unittest.TestCase):
     def test_collide_has_a_row_for_each_query_and_engine(self) -> None:
         found = rigor.collide(random=5, seed=3, shapes=["sphere", "box"], engines=["rigor", "fcl"])
         self.assertEqual(sorted(found["engine"].value_counts()), [found["case"].nunique()] * 2)
-        self.assertIn("verdict", found)
-        self.assertEqual(found["exact_distance"].dtype, np.float64)
+        self.assertEqual(set(found["verdict"]), {"ok"})
+        self.assertEqual(found["exact_signed_distance"].dtype, np.float64)
+        self.assertLess(found["distance_error"].max(), 1e-9)
+        self.assertEqual(set(found["shape_a"]) | set(found["shape_b"]), {"sphere", "box"})
 
     def test_a_study_gives_its_run_and_tables(self) -> None:
-        run = rigor.study("symptoms", parts="sticky_contact", out=temporary_folder() / "symptoms", progress=False)
+        run = rigor.study("symptoms", parts="sticking", out=temporary_folder() / "symptoms", progress=False)
         self.assertGreater(len(run.cases), 1)
         self.assertIn("parts", run.study)
 
