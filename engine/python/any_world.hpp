@@ -46,7 +46,7 @@ struct MaterialArgs {
     double friction = 0, restitution = 0, staticFriction = 0, rollingFriction = 0, torsionalFriction = 0;
 };
 
-/// Whose turn it is to use a world: held during a call. Throws std::runtime_error where another thread holds it.
+/// The right to use a world, held during a call. Throws std::runtime_error where another thread holds it.
 class Turn {
   public:
     explicit Turn(std::atomic_flag& taken) : taken_(taken) {

@@ -34,7 +34,7 @@ WorldClass bindEngine(py::module_& module) {
     bindJoints(module);
     WorldClass world = bindWorld(module);
     bindBatch(module);
-    // Where people find them.
+    // The package shows the classes under its own name.
     for (const char* name : {"EngineError", "Shape", "JointAxis", "World", "WorldBatch"})
         module.attr(name).attr("__module__") = "rigor";
     return world;

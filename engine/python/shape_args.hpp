@@ -35,7 +35,7 @@ struct ShapeArgs {
     Numbers vector;             ///< normal of a half-space
     Numbers points;             ///< points x dimension; heights of a field, rows x columns
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    bool loop = false;  ///< of a chain
+    bool loop = false;  ///< a chain that ends where it begins
 };
 
 /// Throws EngineError "shape_dimension" for a kind that the dimension does not have, "array" for numbers of another

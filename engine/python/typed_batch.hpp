@@ -42,7 +42,7 @@ class TypedBatch final : public AnyBatch {
     void fillStates();
 
     std::shared_ptr<const TypedWorld<S>> pattern_;  ///< names, time step and schedule of the worlds
-    Worlds starts_;                                 ///< where each world began, if they were given one by one
+    Worlds starts_;  ///< the worlds as they began, if they were given one by one
     WorldBatch<S> batch_;
     StateArray<R> states_;
     mutable std::atomic_flag taken_ = ATOMIC_FLAG_INIT;

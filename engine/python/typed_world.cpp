@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <map>
+
 #include "engine/python/world_building-inl.hpp"
 #include "engine/python/world_queries-inl.hpp"
 #include "engine/python/world_reading-inl.hpp"
@@ -12,10 +14,12 @@ namespace {
 /// A switch is given as a bool, or by the word that a spec has.
 bool toSwitch(const std::string& key, const py::handle& value) {
     if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
-    const std::string word = py::str(value);
-    if (word != "on" && word != "off")
-        throw EngineError("setting_value", key + ": found '" + word + "', expected on or off");
-    return word == "on";
+    static const std::map<std::string, bool> words{{"off", false}, {"on", true}};
+    const auto found = words.find(py::str(value));
+    if (found == words.end())
+        throw EngineError("setting_value",
+                          key + ": found '" + std::string(py::str(value)) + "', expected on or off");
+    return found->second;
 }
 
 template <class T>

@@ -131,7 +131,7 @@ class TypedWorld final : public AnyWorld {
     std::vector<BodyId> bodyIds_;
     std::vector<JointId> jointIds_;
     std::vector<std::uint32_t> materialIds_;
-    std::vector<std::int32_t> bodyNumbers_, shapeNumbers_;  ///< by index of the handle
+    std::vector<std::int32_t> bodyNumbers_, shapeNumbers_;  ///< numbers by the index of the handle
     std::int32_t shapes_ = 0;
     BeforeStep<S> beforeStep_;
     StateArray<R> states_;
