@@ -32,7 +32,7 @@ class Progress:
     text: str
 
 
-#: True: a line on standard error (of the notebook); False: silence; a function: called for each case that has ended.
+#: True: a line on standard error, or below the notebook's cell; False: silence; a function: called for each case that has ended.
 ProgressOption = Union[bool, Callable[[Progress], None]]
 
 
@@ -103,6 +103,8 @@ class _Follower(threading.Thread):
         self._stream, self._progress = stream, progress
         self.messages: list[str] = []
         self.error: Optional[BaseException] = None
+        # A terminal and a notebook show a line again and again in one place.
+        self._rewrites = sys.stderr.isatty() or "ipykernel" in sys.modules
         self._shown = 0
 
     def run(self) -> None:
@@ -124,7 +126,10 @@ class _Follower(threading.Thread):
                 except BaseException as error:  # raised again by call(), when the program has ended
                     self.error = error
         elif self._progress:
-            text = f"[{step.done}/{step.total}] {step.text}"[:110]
-            sys.stderr.write("\r" + text.ljust(self._shown))
+            text = f"[{step.done}/{step.total}] {step.text}"
+            if self._rewrites:
+                sys.stderr.write("\r" + text[:110].ljust(self._shown))
+                self._shown = max(self._shown, len(text[:110]))
+            else:
+                sys.stderr.write(text + "\n")
             sys.stderr.flush()
-            self._shown = max(self._shown, len(text))
