@@ -163,7 +163,9 @@ class Arrays(unittest.TestCase):
         self.assertGreater(len(on_floor), 3)
         self.assertAlmostEqual(resting / weight, 1, delta=0.02)
         np.testing.assert_allclose(on_floor["normal"], [[0, 1, 0]] * len(on_floor), atol=1e-9)
-        self.assertLess(np.abs(on_floor["point_a"] - on_floor["point_b"]).max(), 1e-3)
+        np.testing.assert_allclose((on_floor["point_a"] - on_floor["point_b"])[:, 1], on_floor["depth"], atol=1e-12)
+        self.assertGreater(contacts["depth"].max(), 0)  # resting contacts overlap by the slop
+        self.assertEqual(set(contacts["shape_a"]), set(contacts["body_a"]))  # each body has one shape
 
 
 class Physics(unittest.TestCase):

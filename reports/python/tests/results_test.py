@@ -146,7 +146,7 @@ class Trajectories(unittest.TestCase):
         np.testing.assert_allclose(first["normal"], [[0, 1, 0]] * 4, atol=1e-9)
         weight = 2.0 * 9.81 / 240  # the impulse of a step under the block of 2 kg
         self.assertAlmostEqual(first["normal_impulse"].sum(), weight, delta=1e-6)
-        self.assertEqual(set(motion.contacts["body_a"]), {0})
+        self.assertEqual((set(motion.contacts["body_a"]), set(motion.contacts["body_b"])), ({0}, {1}))
 
     def test_frames_and_unknown_bodies(self) -> None:
         motion = made_run().trajectory(made_run().cases.iloc[0])
