@@ -36,19 +36,19 @@ class SameBits(unittest.TestCase):
     """World(scenario, spec) is the world that the program steps."""
 
     def compare(self, scenario: str, spec: str, dt: float, steps: int) -> None:
-        run = rigor.validate(scenario, engines=spec, dt=dt, out=temporary_folder() / spec.replace("=", "-") / scenario, audit=False, progress=False)
+        folder = temporary_folder() / spec.replace("=", "-") / scenario
+        run = rigor.validate(scenario, engines=spec, dt=dt, out=folder, audit=False, progress=False)
         motion = run.trajectory(engine="rigor", dt=dt)
         world = rigor.World(scenario, spec, dt=dt)
         self.assertEqual(world.bodies, list(motion.bodies))
         frames = range(0, min(len(motion.time), steps // motion.stride + 1))
         self.assertGreater(len(frames), 10)
         for frame in frames:
-            for number, name in enumerate(world.bodies):
-                body = motion.bodies[name]
-                if body.velocity is None:
-                    continue
-                row = np.concatenate([body.position[frame], body.orientation[frame], body.velocity[frame], body.angular_velocity[frame]])
-                np.testing.assert_array_equal(world.states[number].view(np.int64), row.view(np.int64), f"{name} in frame {frame}")
+            for states, (name, body) in zip(world.states, motion.bodies.items()):
+                if body.velocity is not None:
+                    channels = (body.position, body.orientation, body.velocity, body.angular_velocity)
+                    row = np.concatenate([channel[frame] for channel in channels])
+                    np.testing.assert_array_equal(states.view(np.int64), row.view(np.int64), f"{name} in frame {frame}")
             world.step(motion.stride)
 
     def test_friction(self) -> None:
@@ -198,7 +198,10 @@ class Physics(unittest.TestCase):
         door = world.add_body(mass=10, inertia=[1, 1, 1])
         axis = rigor.JointAxis("limited", lower=0, upper=1.0, motor_speed=2, motor_max_force=50)
         hinge = world.add_joint("hinge", None, door, axis_a=(0, 1, 0), axis_b=(0, 1, 0), axes=[axis], name="hinge")
-        world.step(60)
+        world.step(4)
+        self.assertAlmostEqual(world.joint_torque(hinge)[1], 50, delta=1e-6)  # while it speeds up, all that it has
+        self.assertAlmostEqual(world.states[door, 11], 50 * 4 / 240, delta=1e-6)
+        world.step(56)
         self.assertAlmostEqual(world.joint_speed(hinge), 2, delta=1e-6)
         self.assertAlmostEqual(world.joint_coordinate("hinge"), 0.5, delta=0.05)
         world.step(240)
@@ -336,7 +339,7 @@ class Threads(unittest.TestCase):
     def test_python_goes_on_while_a_world_steps_and_a_second_caller_is_refused(self) -> None:
         world = pile()
         errors, counted = [], 0
-        stepping = threading.Thread(target=lambda: world.step(20_000))
+        stepping = threading.Thread(target=world.step, args=(50_000,))
         stepping.start()
         while stepping.is_alive():
             counted += 1
@@ -345,7 +348,7 @@ class Threads(unittest.TestCase):
             except RuntimeError as error:
                 errors.append(str(error))
         stepping.join()
-        self.assertGreater(counted, 100)
+        self.assertGreater(counted, 10)
         self.assertEqual(set(errors), {"the world is in use by another thread"})
 
     def test_two_worlds_in_two_threads_have_the_bits_of_one(self) -> None:
