@@ -7,6 +7,7 @@ from __future__ import annotations
 import ast
 import copy
 import gc
+import signal
 import threading
 import unittest
 from pathlib import Path
@@ -16,7 +17,7 @@ import numpy as np
 
 import rigor
 import rigor.engine
-from made_run import made_run, temporary_folder
+from made_run import temporary_folder
 
 FLOOR = rigor.Shape.half_space((0, 1, 0))
 
@@ -272,7 +273,8 @@ class Physics(unittest.TestCase):
 
     def test_surfaces_hold_what_lies_on_them(self) -> None:
         square = np.array([(-5, 0, -5), (5, 0, -5), (5, 0, 5), (-5, 0, 5)], dtype=float)
-        for ground in (rigor.Shape.triangle_mesh(square, [(0, 2, 1), (0, 3, 2)]), rigor.Shape.height_field(np.zeros((3, 4)), 2.0, 3.0)):
+        mesh = rigor.Shape.triangle_mesh(square, [(0, 2, 1), (0, 3, 2)])
+        for ground in (mesh, rigor.Shape.height_field(np.zeros((3, 4)), 2.0, 3.0)):
             world = rigor.World()
             world.add_shape(world.add_body(type="static"), ground)
             world.add_shape(world.add_body(position=(0.3, 0.5, 0.2)), rigor.Shape.sphere(0.5))
@@ -350,6 +352,14 @@ class Threads(unittest.TestCase):
         stepping.join()
         self.assertGreater(counted, 10)
         self.assertEqual(set(errors), {"the world is in use by another thread"})
+
+    def test_ctrl_c_ends_a_step_between_two_steps_of_the_engine(self) -> None:
+        world = pile()
+        threading.Timer(0.3, signal.raise_signal, args=(signal.SIGINT,)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            world.step(1_000_000_000)
+        self.assertGreater(world.time, 0)
+        np.testing.assert_array_equal(world.states, world.copy().states)
 
     def test_two_worlds_in_two_threads_have_the_bits_of_one(self) -> None:
         worlds = [pile(), pile()]

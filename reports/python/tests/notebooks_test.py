@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import sys
 import unittest
@@ -15,9 +16,8 @@ try:
     import nbformat
     from nbclient import NotebookClient
 
-    import matplotlib
-    import scipy
-    import ipykernel
+    for needed in ("matplotlib", "scipy", "ipykernel"):
+        importlib.import_module(needed)
 except ImportError as missing:
     print(f"The notebooks need nbclient, ipykernel, matplotlib and scipy (./rigor --with python): {missing}", file=sys.stderr)
     sys.exit(77)

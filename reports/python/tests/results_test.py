@@ -96,8 +96,8 @@ class Tables(unittest.TestCase):
         self.assertIn("compiler", run.environment)
         wide = run.wide("position_final")
         self.assertEqual(wide.shape, (2, 2))
-        self.assertEqual(wide.loc[("slide_and_stop", 1 / 60), "rigor:preset=matched"],
-                         run.metrics.query("name == 'position_final' and subject == '' and engine == 'rigor' and dt > 0.01")["value"].iloc[0])
+        rows = run.metrics.query("name == 'position_final' and subject == '' and engine == 'rigor' and dt > 0.01")
+        self.assertEqual(wide.loc[("slide_and_stop", 1 / 60), "rigor:preset=matched"], rows["value"].iloc[0])
         with self.assertRaisesRegex(KeyError, "position_final"):
             run.wide("position_finial")
 
