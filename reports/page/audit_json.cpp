@@ -12,6 +12,16 @@ namespace rigor::report {
 
 using results::CaseRow;
 
+namespace {
+
+/// The array that the store holds as text; empty in runs before schema 11.
+Json findingsOf(const results::AuditRow& row) {
+    if (row.findings.empty()) return Json::array();
+    return Json::parse(row.findings);
+}
+
+}  // namespace
+
 Json auditJson(const CaseRow& row) {
     Json list = Json::array();
     for (const auto& a : row.audit)
@@ -29,7 +39,8 @@ Json auditJson(const CaseRow& row) {
                         {"depthErrorMedian", number(a.depthErrorMedian)},
                         {"pointErrorMax", number(a.pointErrorMax)},
                         {"worst", a.worst},
-                        {"note", a.note}});
+                        {"note", a.note},
+                        {"findings", findingsOf(a)}});
     return list;
 }
 

@@ -173,6 +173,7 @@ Json judgementJson(const ViewModel& view, const CaseRow& row) {
     const Ratios& ratios = view.ratios(row);
     return {{"grade", results::gradeName(a.grade)},
             {"by", a.metric},
+            {"of", worstSubject(row, a.metric)},
             {"relative", number(a.relative)},
             {"ideal", number(a.ideal)},
             {"beside", results::againstSchemeName(results::againstScheme(a.relative, a.ideal))},
@@ -197,6 +198,7 @@ Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) 
                {"refusal", row.refusal}};
     const auto* main = findMetric(row, view.mainMetric(scenario).name);
     brief["value"] = main ? number(main->value) : Json(nullptr);
+    brief["subject"] = main ? worstSubject(row, main->name) : std::string();
     brief["bound"] = main ? number(main->bound) : Json(nullptr);
     brief["range"] = main && results::dependsOnOrder(*main) ? Json(orderRangeText(*main)) : Json(nullptr);
     const auto* timing = stepTiming(row);

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "reports/encoding/json.hpp"
 #include "validation/statistics/quantile.hpp"
 
 namespace rigor::report {
@@ -95,6 +96,29 @@ void addAudit(const TrajectoryFile& file, const results::CaseRow& row, std::vect
         event.text = audit.worst;
         event.contact = contactOf(audit.worst);
         out.push_back(std::move(event));
+    }
+}
+
+/// The worst depth, missed and false overlap of the contacts that the run acted upon: their frames are kept.
+/// The worst normal has an event already.
+void addFindings(const TrajectoryFile& file, const results::CaseRow& row, std::vector<ReplayEvent>& out) {
+    for (const auto& audit : row.audit) {
+        if (audit.auditor != "in_run" || audit.findings.empty()) continue;
+        for (const auto& found : Json::parse(audit.findings)) {
+            const auto what = found.at("what").get<std::string>();
+            if (what == "normal" || !found.at("error").is_number()) continue;
+            const auto step = found.at("step").get<std::size_t>();
+            const std::size_t frame = step / static_cast<std::size_t>(std::max(1, file.stride));
+            ReplayEvent event = eventAt(file, std::min(frame, file.times.size() - 1), "audit");
+            event.what = audit.auditor;
+            event.subject =
+                found.at("names").at(0).get<std::string>() + "|" + found.at("names").at(1).get<std::string>();
+            event.value = found.at("error");
+            event.unit = "m";
+            event.text = what;
+            event.contact = found.at("contact");
+            out.push_back(std::move(event));
+        }
     }
 }
 
@@ -197,6 +221,7 @@ std::vector<ReplayEvent> replayEvents(const TrajectoryFile& file, const results:
     if (file.times.empty()) return out;
     addLargest(file, row, out);
     addAudit(file, row, out);
+    addFindings(file, row, out);
     addDivergence(file, kDivergenceFraction * sceneLength(file), out);
     addNonFinite(file, out);
     addContactEvents(file, out);

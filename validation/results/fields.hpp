@@ -84,6 +84,7 @@ void eachField(Row& a, Use&& use) {
     use("point_error_max", a.pointErrorMax);
     use("worst", a.worst);
     use("note", a.note);
+    use("findings", a.findings, 11);
 }
 
 template <RowOf<TimingRow> Row, class Use>

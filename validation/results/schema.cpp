@@ -58,7 +58,7 @@ CREATE TABLE audit (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, auditor TEXT, outcome TEXT, frames INTEGER,
     queries INTEGER, overlapping INTEGER, missed INTEGER, spurious INTEGER, undecided INTEGER, normal_error_max,
     normal_error_median, depth_error_max, depth_error_median, point_error_max, worst TEXT, note TEXT,
-    non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+    non_finite TEXT, findings TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE timings (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, phase TEXT, median, p10, p90, total,
     samples INTEGER, mean_contacts, low, high, bodies INTEGER, first, mean, p95, p99, worst, real_time_factor,
@@ -133,6 +133,8 @@ ALTER TABLE cases ADD COLUMN insertion_verdicts TEXT DEFAULT '';
 ALTER TABLE cases ADD COLUMN order_dependent TEXT DEFAULT '';
 )sql";
 
+constexpr const char* kColumnsOfSchema11 = "ALTER TABLE audit ADD COLUMN findings TEXT DEFAULT ''";
+
 /// Tables with measured numbers: since schema 8 each says which of a row are not finite. A table that an
 /// older file gets whole has the column already.
 constexpr const char* kTablesWithNumbers[] = {
@@ -182,6 +184,7 @@ void upgrade(SQLite::Database& database) {
     }
     if (version < 9) database.exec(kColumnsOfSchema9);
     if (version < 10) database.exec(kColumnsOfSchema10);
+    if (version < 11) database.exec(kColumnsOfSchema11);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
 }

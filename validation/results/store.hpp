@@ -11,7 +11,7 @@
 
 namespace rigor::results {
 
-inline constexpr int kSchemaVersion = 10;
+inline constexpr int kSchemaVersion = 11;
 
 /// Reads a run folder. Throws std::runtime_error when it is none or of a newer schema.
 Run readRun(const std::filesystem::path& directory);

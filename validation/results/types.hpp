@@ -124,6 +124,9 @@ struct AuditRow {
     std::optional<double> pointErrorMax;  ///< [m], of witness points from the exact surfaces
     std::string worst;                    ///< "block|floor at t=0.25, step 15 (normal)"
     std::string note;
+    /// The worst normal, depth, missed and false overlap with what is needed to draw them, as a JSON array
+    /// (validation/results/README.md); empty in runs before schema 11.
+    std::string findings = {};
 };
 
 /// Seconds of wall time.

@@ -8,6 +8,7 @@
 #include "validation/metrics/metric_parts.hpp"
 #include "validation/oracle/oracle.hpp"
 #include "validation/runner/audit.hpp"
+#include "validation/runner/audit_findings.hpp"
 #include "validation/runner/audit_spread.hpp"
 
 namespace rigor::validation {
@@ -19,6 +20,9 @@ using scenario::Geometry;
 using scenario::Pose;
 using scenario::Scenario;
 using scenario::Vec3;
+
+constexpr double kNoticeableAngle = 1e-6;  ///< [rad] normals nearer than this are right
+constexpr double kNoticeableDepth = 1e-9;  ///< [m]
 
 const Geometry& geometryOf(const Scenario& s, int body, int shape) {
     return s.bodies[body].shapes[shape].geometry;
@@ -66,11 +70,13 @@ class Comparison {
         const bool overlaps = q.signedDistance<-kTouchTolerance, apart = q.signedDistance> kTouchTolerance;
         if (overlaps && !answer.overlap) {
             ++row_.missed;
-            name(q, "missed", 3);
+            name(q, "missed", 3, -q.signedDistance);
+            findings_.add("missed", -q.signedDistance, q, nullptr, -1);
         }
         if (apart && answer.overlap) {
             ++row_.spurious;
-            name(q, "spurious", 2);
+            name(q, "spurious", 2, q.signedDistance);
+            addSpurious(q, answer, places);
         }
         if (overlaps && answer.overlap && !answer.contacts.empty()) compareContacts(q, answer, places);
     }
@@ -81,7 +87,7 @@ class Comparison {
         AuditQuery q;
         q.bodyA = contact.bodyA;
         q.bodyB = contact.bodyB;
-        name(q, "spurious, far apart", 2);
+        name(q, "spurious, far apart", 2, contact.depth);
     }
 
     void finish() {
@@ -90,15 +96,19 @@ class Comparison {
         row_.depthErrorMax = depth_.max();
         row_.depthErrorMedian = depth_.median();
         row_.pointErrorMax = point_.max();
+        row_.findings = findings_.text(scenario_);
     }
 
   private:
     void compareContacts(const AuditQuery& q, const CollisionAnswer& answer, const std::vector<int>& places) {
         const ContactPoint& deepest = deepestOf(answer.contacts);
-        depth_.add(std::abs(deepest.depth + q.signedDistance));
-        const auto index = static_cast<std::size_t>(&deepest - answer.contacts.data());
-        const int place = index < places.size() ? places[index] : -1;
-        if (normal_.add(nearestAngle(deepest.normal, q.normals))) name(q, "normal", 1, place);
+        const int place = placeOf(deepest, answer, places);
+        const double depthError = std::abs(deepest.depth + q.signedDistance);
+        const double normalError = nearestAngle(deepest.normal, q.normals);
+        depth_.add(depthError);
+        if (depthError > kNoticeableDepth) findings_.add("depth", depthError, q, &deepest, place);
+        if (normalError > kNoticeableAngle) findings_.add("normal", normalError, q, &deepest, place);
+        if (normal_.add(normalError)) name(q, "normal", 1, normalError, place);
         const int dimension = scenario_.dimension;
         point_.add(
             surfaceDistance(deepest.pointA, geometryOf(scenario_, q.bodyA, q.shapeA), q.poseA, dimension));
@@ -106,11 +116,28 @@ class Comparison {
             surfaceDistance(deepest.pointB, geometryOf(scenario_, q.bodyB, q.shapeB), q.poseB, dimension));
     }
 
-    /// The worst query so far: a missed overlap before a false one before a wrong normal. `contact`: its
-    /// place among the stored contacts of the frame, -1 where it is none of them.
-    void name(const AuditQuery& q, const char* what, int rank, int contact = -1) {
-        if (rank < worstRank_ || (rank == worstRank_ && rank > 1)) return;
+    void addSpurious(const AuditQuery& q, const CollisionAnswer& answer, const std::vector<int>& places) {
+        if (answer.contacts.empty()) {
+            findings_.add("spurious", q.signedDistance, q, nullptr, -1);
+            return;
+        }
+        const ContactPoint& deepest = deepestOf(answer.contacts);
+        findings_.add("spurious", q.signedDistance, q, &deepest, placeOf(deepest, answer, places));
+    }
+
+    static int placeOf(const ContactPoint& contact, const CollisionAnswer& answer,
+                       const std::vector<int>& places) {
+        const auto index = static_cast<std::size_t>(&contact - answer.contacts.data());
+        return index < places.size() ? places[index] : -1;
+    }
+
+    /// The worst query so far: a missed overlap before a false one before a wrong normal, of a kind the one
+    /// with the largest error. `contact`: its place among the stored contacts of the frame, -1 where it is
+    /// none of them.
+    void name(const AuditQuery& q, const char* what, int rank, double error, int contact = -1) {
+        if (rank < worstRank_ || (rank == worstRank_ && error <= worstError_)) return;
         worstRank_ = rank;
+        worstError_ = error;
         char place[64];
         std::snprintf(place, sizeof place, " at t=%.6g, step %lld", q.time, static_cast<long long>(q.step));
         const std::string which = contact < 0 ? "" : ", contact " + std::to_string(contact);
@@ -121,7 +148,9 @@ class Comparison {
     const Scenario& scenario_;
     results::AuditRow& row_;
     Spread normal_, depth_, point_;
+    AuditFindings findings_;
     int worstRank_ = 0;
+    double worstError_ = 0.0;
 };
 
 }  // namespace

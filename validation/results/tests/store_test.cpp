@@ -90,9 +90,9 @@ void expectSameParity(const CaseRow& a, const CaseRow& b) {
     for (std::size_t i = 0; i < a.audit.size(); ++i) {
         const AuditRow &m = a.audit[i], &n = b.audit[i];
         EXPECT_EQ(std::tie(m.auditor, m.outcome, m.frames, m.queries, m.overlapping, m.missed, m.spurious,
-                           m.undecided, m.worst, m.note),
+                           m.undecided, m.worst, m.note, m.findings),
                   std::tie(n.auditor, n.outcome, n.frames, n.queries, n.overlapping, n.missed, n.spurious,
-                           n.undecided, n.worst, n.note));
+                           n.undecided, n.worst, n.note, n.findings));
         expectSame("normal max", m.normalErrorMax, n.normalErrorMax);
         expectSame("normal median", m.normalErrorMedian, n.normalErrorMedian);
         expectSame("depth max", m.depthErrorMax, n.depthErrorMax);
@@ -262,7 +262,12 @@ TEST(Store, AnalysisIsReplacedAsAWhole) {
     expectAnalysed(readRun(folder.path()));
 }
 
+void takeBackFindings(SQLite::Database& database) {
+    database.exec("ALTER TABLE audit DROP COLUMN findings");
+}
+
 void takeBackVerdictsOfOrders(SQLite::Database& database) {
+    takeBackFindings(database);
     for (const char* column : {"insertion_orders_failed", "insertion_verdicts", "order_dependent"})
         database.exec(std::string("ALTER TABLE cases DROP COLUMN ") + column);
 }

@@ -6,8 +6,10 @@
 // of the poses it began at.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "validation/results/trajectory_file.hpp"
@@ -28,6 +30,14 @@ void set(double (&into)[3], Vec3 v) {
     into[0] = v.x;
     into[1] = v.y;
     into[2] = v.z;
+}
+
+/// Turns a unit vector by an angle [rad], about any axis across it.
+void turn(double (&v)[3], double angle) {
+    const Vec3 n{v[0], v[1], v[2]};
+    const Vec3 other = std::abs(n.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 across = (other - dot(other, n) * n) / norm(other - dot(other, n) * n);
+    set(v, std::cos(angle) * n + std::sin(angle) * across);
 }
 
 class InRun : public fixtures::RunnerTest {
@@ -151,6 +161,49 @@ TEST_F(InRun, ForgottenAndInvented) {
     EXPECT_GT(far.spurious, 5);
     for (auto& c : file_.contacts) c.depth = -0.01;  // keeps its distance: nothing is claimed
     EXPECT_EQ(audited().spurious, 0);
+}
+
+/// What is needed to draw the worst normal: the engine's, the exact one, their angle and the witness points.
+TEST_F(InRun, TheWorstOfEachKindIsKeptWithTheExactSolution) {
+    EXPECT_EQ(audited().findings, "");
+    const double tilt = 0.2, deeper = 0.03;  // [rad/s], [m/s]
+    for (auto& c : file_.contacts) {
+        turn(c.normal, tilt * c.time);
+        c.depth += deeper * c.time;
+    }
+    const auto row = audited();
+    const auto found = nlohmann::json::parse(row.findings);
+    ASSERT_EQ(found.size(), 2u) << row.findings;
+    for (const auto& f : found) {
+        const bool ofNormal = f.at("what") == "normal";
+        EXPECT_EQ(f.at("unit"), ofNormal ? "rad" : "m");
+        const double time = f.at("time");
+        EXPECT_GT(time, 0.5) << "the worst is late";
+        EXPECT_EQ(f.at("step"), std::lround(time / kStep));
+        EXPECT_NEAR(f.at("error").get<double>(), (ofNormal ? tilt : deeper) * time, 1e-9);
+        const auto& exact = f.at("exact");
+        const auto vec = [](const nlohmann::json& j) { return Vec3{j.at(0), j.at(1), j.at(2)}; };
+        const Vec3 across = vec(exact.at("pointB")) - vec(exact.at("pointA"));
+        const double distance = exact.at("distance");
+        EXPECT_NEAR(norm(across - distance * vec(exact.at("normals").at(0))), 0.0, 1e-9);
+        EXPECT_NEAR(dot(vec(f.at("said").at("normal")), vec(exact.at("normals").at(0))),
+                    std::cos(tilt * time), 1e-9);
+        EXPECT_NEAR(f.at("said").at("depth").get<double>() + distance, deeper * time, 1e-9);
+    }
+}
+
+TEST_F(InRun, AMissedOverlapIsKeptAtItsDeepest) {
+    double deepest = 0.0;
+    for (const auto& c : file_.contacts)
+        if (c.bodyA == 1) deepest = std::max(deepest, c.depth);
+    std::erase_if(file_.contacts, [](const ContactSample& c) { return c.bodyA == 1; });
+    const auto found = nlohmann::json::parse(audited().findings);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].at("what"), "missed");
+    EXPECT_TRUE(found[0].at("said").is_null());
+    EXPECT_EQ(found[0].at("bodies"), (nlohmann::json{1, 2}));
+    EXPECT_GT(found[0].at("error").get<double>(), 0.0);
+    EXPECT_LE(found[0].at("error").get<double>(), deepest + 1e-12);
 }
 
 /// No result is given for frames whose contacts were not stored.
