@@ -44,11 +44,19 @@ std::string schemeText(const results::AccuracyRow& accuracy) {
     }
 }
 
-/// "joint_drift 0.0095 m, which is 0.047 of its scale 0.2 m"; a metric without a unit is its own relative error.
-std::string decidingText(const results::AccuracyRow& accuracy, const MetricRow* m) {
+/// "quantity_error of stop_time": the metric that decides and what it is of.
+std::string decidingName(const CaseRow& row) {
+    const std::string subject = worstSubject(row, row.accuracy.metric);
+    return row.accuracy.metric + (subject.empty() ? "" : " of " + subject);
+}
+
+/// "joint_drift of hinge 0.0095 m, which is 0.047 of its scale 0.2 m"; a metric without a unit is its own relative error.
+std::string decidingText(const CaseRow& row, const MetricRow* m) {
+    const auto& accuracy = row.accuracy;
+    const std::string name = decidingName(row);
     const double relative = accuracy.relative.value_or(kNoNumber);
-    if (m == nullptr) return accuracy.metric + ", relative error " + shortNumber(relative);
-    std::string text = accuracy.metric + " " + withUnit(m->value, m->unit);
+    if (m == nullptr) return name + ", relative error " + shortNumber(relative);
+    std::string text = name + " " + withUnit(m->value, m->unit);
     if (m->unit == "1" && (!m->scale || *m->scale == 1.0)) return text;
     return text + ", which is " + shortNumber(relative) + " of its scale" +
            (m->scale ? " " + withUnit(*m->scale, m->unit) : "");
@@ -65,7 +73,7 @@ std::string accuracySentence(const CaseRow& row) {
                ".";
     const MetricRow* m = findMetric(row, accuracy.metric);
     std::string text = "Grade " + std::string(results::gradeName(accuracy.grade)) + " at " +
-                       timeStepLabel(row.dt) + ", by its worst error: " + decidingText(accuracy, m) + "." +
+                       timeStepLabel(row.dt) + ", by its worst error: " + decidingText(row, m) + "." +
                        schemeText(accuracy);
     if (m != nullptr && m->verdict == results::Verdict::KnownDeviation)
         text += " Wrong physics: " + m->note + ".";

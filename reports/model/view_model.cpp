@@ -196,6 +196,15 @@ std::vector<std::size_t> byTrouble(const ViewModel& view) {
     return all;
 }
 
+std::string worstSubject(const CaseRow& row, const std::string& name) {
+    const MetricRow* worst = nullptr;
+    for (const auto& m : row.metrics) {
+        if (m.name != name || m.subject.empty()) continue;
+        if (!worst || std::abs(m.value) > std::abs(worst->value)) worst = &m;
+    }
+    return worst ? worst->subject : "";
+}
+
 const MetricRow* findMetric(const CaseRow& row, const std::string& name) {
     const MetricRow* worst = nullptr;
     for (const auto& m : row.metrics) {

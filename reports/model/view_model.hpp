@@ -234,6 +234,9 @@ std::vector<std::size_t> byTrouble(const ViewModel& view);
 std::vector<GatheredAudit> gatherAudit(const results::Run& run);
 /// Whole-scene row of a metric, or its worst subject; null when the case does not have it.
 const results::MetricRow* findMetric(const results::CaseRow& row, const std::string& name);
+/// Subject with the largest value of a metric: the quantity, body or joint that its whole-scene row is of; ""
+/// where there is none.
+std::string worstSubject(const results::CaseRow& row, const std::string& name);
 /// Precision of the numbers of a case: from its settings, else from its engine.
 std::string precisionOf(const results::Run& run, const results::CaseRow& row);
 /// The phase "step", or null.

@@ -15,7 +15,7 @@ const pages = {
   target: ['chrome110', 'firefox115', 'safari16.4'],
   minify: true,
   legalComments: 'inline',
-  loader: { '.woff2': 'dataurl', '.woff': 'empty', '.ttf': 'empty' },
+  loader: { '.woff2': 'dataurl', '.woff': 'empty', '.ttf': 'empty', '.def': 'text' },
 };
 const tests = {
   entryPoints: ['unit', 'browser'].flatMap((kind) =>
@@ -28,6 +28,7 @@ const tests = {
   outExtension: { '.js': '.cjs' },
   platform: 'node',
   target: 'node18',
+  loader: { '.def': 'text' },
   external: ['axe-core', 'playwright-core'],
 };
 

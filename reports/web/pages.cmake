@@ -19,11 +19,12 @@ add_custom_command(
     COMMENT "Installing the libraries of the pages"
     VERBATIM)
 
+set(metrics ${PROJECT_SOURCE_DIR}/validation/metrics/metrics.def)  # titles and formulas of the glossary
 file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${web}/src/*.ts ${web}/src/*.css)
 add_custom_command(
     OUTPUT ${RIGOR_WEB_BUNDLES}
     COMMAND ${RIGOR_NODE} build.mjs ${bundles}
-    DEPENDS ${installed} ${sources} ${web}/build.mjs
+    DEPENDS ${installed} ${sources} ${metrics} ${web}/build.mjs
     WORKING_DIRECTORY ${web}
     COMMENT "Bundling the pages"
     VERBATIM)

@@ -2,3 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 // Style sheets are gathered by the bundler.
 declare module '*.css';
+declare module '*.def' {
+  const text: string;
+  export default text;
+}

@@ -39,6 +39,7 @@ export interface Focus {
   spec: string;
   bodies: string[]; // names; empty: the whole scene
   contact: number | null; // index of the contact in the frame; null: the deepest of the two bodies
+  finding?: string | null; // key of a finding of the audit, which is drawn there
 }
 
 export interface Cursor {

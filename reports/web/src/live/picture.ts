@@ -40,7 +40,7 @@ export class Picture {
     this.element = el('div', { class: 'stage' });
     parent.replaceChildren(this.element); // inserted before the view reads its size
     this.view = new ReplayView(this.element, scene);
-    this.#inspector = new Inspector(scene);
+    this.#inspector = new Inspector(scene, true);
     this.#dragger = new Dragger(this.view, (body) => scene.bodies[body]?.type === 'dynamic', drag);
     this.element.append(this.#labels.element, this.#spring, this.#inspector.element);
     this.#ends.push(this.#dragger.listen(this.element));
@@ -118,7 +118,7 @@ export class Picture {
     if (this.#hover) {
       const now = this.view.frameOf(this.#hover.source);
       const stale = now !== null && now.frame !== this.#hover.frame;
-      this.#inspector.show(stale ? { ...this.#hover, frame: now.frame, contact: -1 } : this.#hover, false);
+      this.#inspector.show(stale ? { ...this.#hover, frame: now.frame, contact: -1 } : this.#hover);
       return;
     }
     const frame = this.#pinned?.source.newest;
@@ -126,7 +126,7 @@ export class Picture {
       this.#pinned && frame
         ? { source: this.#pinned.source, frame, body: this.#pinned.body, shape: -1, contact: -1, island: -1 }
         : null;
-    this.#inspector.show(what, true);
+    this.#inspector.show(what);
   }
 
   /** A line in every picture from where the body is held to where the pointer wants it. */

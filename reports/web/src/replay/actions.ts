@@ -19,6 +19,11 @@ export interface ReplayActions {
   readonly hasReference: boolean;
   /** True if frames of a shown engine are stored that are not loaded yet. */
   readonly canLoadMore: boolean;
+  /** True while the camera goes along with the chosen body, and while clicks are points to measure. */
+  readonly following: boolean;
+  readonly measuring: boolean;
+  toggleFollow(): void;
+  toggleMeasure(): void;
   isShown(source: FrameSource): boolean;
   toggleEngine(source: FrameSource): void;
   loadAll(): Promise<void>;

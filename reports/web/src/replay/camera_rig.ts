@@ -164,6 +164,18 @@ export class CameraRig {
     this.#controls.update();
   }
 
+  /** The same, seen from a direction [unit] as far as it is not straight from above or below. */
+  lookFrom(point: Vec3, radius: number, direction: Vec3): void {
+    if (!this.#flat) {
+      const from = new Vector3(...direction);
+      const steep = from.dot(this.#up);
+      if (Math.abs(steep) > 0.95) from.addScaledVector(new Vector3(0.42, 0.3, 1), 0.4).normalize();
+      const far = this.#camera.position.distanceTo(this.#controls.target);
+      this.#camera.position.copy(this.#controls.target).addScaledVector(from, far);
+    }
+    this.lookAt(point, radius);
+  }
+
   get state(): CameraState {
     return { position: this.position, target: this.#controls.target.toArray() as Vec3, zoom: this.#camera.zoom };
   }

@@ -38,6 +38,8 @@ export interface Theme {
   ghost: string;
   contact: string;
   normal: string;
+  exact: string; // what the exact solution says
+  angle: string; // between a normal and the exact one
   impulse: string;
   penetration: string;
   velocity: string;
@@ -56,6 +58,8 @@ export const lightTheme: Theme = {
   ghost: '#5d6b7c',
   contact: '#d7263d',
   normal: '#d7263d',
+  exact: '#00795c',
+  angle: '#1d2733',
   impulse: '#f08a00',
   penetration: '#b5179e',
   velocity: '#0077c8',
@@ -74,6 +78,8 @@ export const darkTheme: Theme = {
   ghost: '#c3ccd8',
   contact: '#ff6b7d',
   normal: '#ff6b7d',
+  exact: '#4fe0b0',
+  angle: '#f2f5f9',
   impulse: '#ffb347',
   penetration: '#ff7be5',
   velocity: '#6ec6ff',

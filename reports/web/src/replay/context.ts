@@ -3,6 +3,7 @@
 //
 // Input of a replay from the page that mounts it.
 import type { Cursor } from '../common/cursor.ts';
+import type { ContactFinding } from '../common/finding.ts';
 import type { FetchFrames } from './full_frames.ts';
 import type { Json } from './json.ts';
 
@@ -17,6 +18,8 @@ export interface ReplayContext {
   /** True for the engines that are shown at first, if there are more than that. */
   isPreferred?: (spec: string) => boolean;
   metrics?: readonly string[]; // metrics in order of importance, whose largest error counts
+  /** The finding of a key in the audit of a spec; null where there is none. */
+  findingOf?: (spec: string, key: string) => ContactFinding | null;
   /** Loads the replay file; by default the one beside the page. */
   load?: () => Promise<ArrayBuffer>;
   /** State that a link restores, and the listener to its changes; by default both are the page's address. */

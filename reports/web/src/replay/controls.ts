@@ -16,6 +16,7 @@ const hints: Partial<Record<LayerName, string>> = {
   bounds: 'Exact boxes of the shapes, without the margin of an engine',
   trails: 'Way of the bodies so far',
   reference: 'The exact solution as a ghost',
+  names: 'Names of the bodies that move',
 };
 
 export class Controls implements ControlActions {
@@ -192,6 +193,20 @@ export class Controls implements ControlActions {
         'Camera back to everything that moves (a)',
         () => stage.view.frameAll(),
         'frame',
+      ),
+      this.#chip(
+        'follow',
+        stage.following,
+        'The camera goes along with the chosen body (g)',
+        () => stage.toggleFollow(),
+        'follow',
+      ),
+      this.#chip(
+        'measure',
+        stage.measuring,
+        'Click points: distance of two, angle of three (x)',
+        () => stage.toggleMeasure(),
+        'measure',
       ),
       ...(stage.canLoadMore ? [more] : []),
     );

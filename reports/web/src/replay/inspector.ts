@@ -3,6 +3,8 @@
 //
 // Numbers of what the pointer is on, or of a body that was clicked: as they are stored, not as they are drawn.
 import { el } from '../common/elements.ts';
+import { angleBetween, type ContactFinding, nearestExact } from '../common/finding.ts';
+import { degrees } from './finding_overlay.ts';
 import type { Frame, FrameSource } from './frames.ts';
 import type { Scene } from './scene.ts';
 
@@ -45,6 +47,41 @@ function contactRows(scene: Scene, { frame, contact }: Inspected): HTMLElement[]
   ];
 }
 
+const findingTitles: Record<ContactFinding['what'], string> = {
+  normal: 'Wrong normal',
+  depth: 'Wrong depth',
+  missed: 'Missed contact',
+  spurious: 'False contact',
+};
+
+/** The engine's numbers beside the exact ones. */
+function findingRows(finding: ContactFinding): HTMLElement[] {
+  const { what, said, exact } = finding;
+  const nearest = nearestExact(finding);
+  const names = finding.names.map((name, i) => {
+    const shape = finding.shapes[i] as number;
+    return `${name}${shape > 0 ? ` (shape ${shape})` : ''}`;
+  });
+  const mm = (x: number) => text(1000 * x);
+  const pair = (name: string, key: string, engine: string | null, exactly: string | null, unit = '') => [
+    ...row(name, engine ?? 'none', engine === null ? '' : unit, `${key}Engine`),
+    ...row('exact', exactly ?? 'unknown', exactly === null ? '' : unit, `${key}Exact`),
+  ];
+  const angle = said && nearest ? degrees(angleBetween(said.normal, nearest)) : null;
+  const apart = exact ? -exact.distance : null;
+  const ties = exact?.normals.length ?? 0;
+  return [
+    el('dt', { class: 'finding' }, findingTitles[what]),
+    el('dd', { class: 'finding', 'data-quantity': 'finding' }, names.join(' and ')),
+    ...(angle ? row('angle between', angle, '', 'angle') : []),
+    ...pair('normal', 'normal', said && three(said.normal, 0), nearest && three(nearest, 0)),
+    ...(ties > 1 ? row('', `nearest of ${ties} exact normals`, '', 'ties') : []),
+    ...pair('depth', 'depth', said && mm(said.depth), apart === null ? null : mm(apart), 'mm'),
+    ...pair('point on A', 'witnessA', said && three(said.pointA, 0), exact && three(exact.pointA, 0), 'm'),
+    ...pair('point on B', 'witnessB', said && three(said.pointB, 0), exact && three(exact.pointB, 0), 'm'),
+  ];
+}
+
 function bodyRows(scene: Scene, { frame, body, shape, island }: Inspected): HTMLElement[] {
   const b = scene.bodies[body];
   if (!b) return [];
@@ -62,20 +99,27 @@ function bodyRows(scene: Scene, { frame, body, shape, island }: Inspected): HTML
 }
 
 export class Inspector {
-  readonly element = el('aside', { class: 'inspector', hidden: true, 'aria-live': 'off' });
+  readonly element: HTMLElement;
   readonly #scene: Scene;
 
-  constructor(scene: Scene) {
+  /** `floating`: over the picture, while the pointer rests on something; else beside it. */
+  constructor(scene: Scene, floating: boolean) {
     this.#scene = scene;
+    const kind = floating ? 'floating' : 'pinned';
+    this.element = el('aside', { class: `inspector ${kind}`, hidden: true, 'aria-live': 'off' });
   }
 
-  show(what: Inspected | null, pinned: boolean): void {
+  show(what: Inspected | null, finding: ContactFinding | null = null): void {
     this.element.hidden = what === null;
-    this.element.classList.toggle('pinned', pinned);
-    if (what === null) return;
+    if (what === null) {
+      this.element.replaceChildren();
+      return;
+    }
     const { source, frame } = what;
+    const own = finding ? el('dl', {}, findingRows(finding)) : null;
     this.element.replaceChildren(
       el('div', { class: 'who' }, el('i', { style: `background:${source.colour}` }), source.label),
+      ...(own ? [own] : []),
       el(
         'dl',
         {},

@@ -17,6 +17,7 @@ export const layerKeys: Record<string, LayerName> = {
   j: 'joints',
   b: 'bounds',
   t: 'trails',
+  y: 'names',
 };
 
 /** A definition list of keys, divided by spaces, and what they do. */

@@ -27,6 +27,9 @@ const explained: [string, string][] = [
   ['c m p i', 'contacts, normals, penetration, impulses'],
   ['v w', 'velocities, angular velocities'],
   ['j b t r', 'joints, AABBs, trails, reference'],
+  ['y', 'names of bodies'],
+  ['g', 'camera goes along with the chosen body'],
+  ['x', 'measure: click two points, or three for an angle'],
   ['?', 'this list'],
 ];
 
@@ -58,6 +61,8 @@ export function bindKeys(root: HTMLElement, stage: ReplayActions, controls: Cont
     ']': () => stage.jump('next'),
     a: () => stage.view.frameAll(),
     o: () => controls.overlay(!stage.view.options.overlaid),
+    g: () => stage.toggleFollow(),
+    x: () => stage.toggleMeasure(),
     '?': () => controls.toggleHelp(),
   };
   const press = (event: KeyboardEvent) => {

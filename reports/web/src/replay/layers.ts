@@ -16,6 +16,7 @@ export const layerNames = {
   bounds: 'AABBs',
   trails: 'Trails',
   reference: 'Reference',
+  names: 'Names',
 } as const;
 export type LayerName = keyof typeof layerNames;
 export type Layers = Record<LayerName, boolean>;
@@ -45,6 +46,7 @@ export const defaultOptions = (): ViewOptions => ({
     bounds: false,
     trails: false,
     reference: true,
+    names: false,
   },
   colouring: 'body',
   overlaid: false,

@@ -18,6 +18,8 @@ export interface LinkState {
   body?: number; // pinned in the inspector
   of?: string; // spec whose body that is
   contact?: number; // contact of that frame, pinned in the inspector
+  finding?: string; // key of a finding of the audit in the run of that spec
+  follow?: boolean; // the camera goes along with the pinned body
 }
 
 /** Five digits are enough for a camera, nine for a time. */
@@ -41,6 +43,8 @@ export function encodeLink(state: LinkState): string {
   if (state.body !== undefined && state.body >= 0) out.set('b', String(state.body));
   if (state.of !== undefined) out.set('of', state.of);
   if (state.contact !== undefined) out.set('c', String(state.contact));
+  if (state.finding !== undefined) out.set('f', state.finding);
+  if (state.follow) out.set('go', '1');
   if (state.camera) {
     const { position, target, zoom } = state.camera;
     out.set('cam', [...position, ...target, zoom].map((v) => short(v)).join('_'));
@@ -72,6 +76,9 @@ export function decodeLink(text: string): LinkState {
   if (contact !== undefined && Number.isInteger(contact)) state.contact = contact;
   const of = from.get('of');
   if (of) state.of = of;
+  const finding = from.get('f');
+  if (finding) state.finding = finding;
+  if (from.get('go') === '1') state.follow = true;
   if (from.has('e')) state.shown = from.getAll('e');
   if (from.has('on')) {
     const options = defaultOptions();
@@ -104,6 +111,7 @@ export function withView(hash: string, view: string): string {
   query.delete('step');
   query.delete('pair');
   query.delete('contact');
+  query.delete('finding');
   query.set('view', view);
   return `${(at < 0 ? hash : hash.slice(0, at)) || '#'}?${query}`;
 }

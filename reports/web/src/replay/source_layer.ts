@@ -3,8 +3,10 @@
 //
 // Everything of one source in a three.js scene of its own: bodies, overlays, ground and light.
 import { Color, DirectionalLight, HemisphereLight, Scene as ThreeScene } from 'three';
+import type { ContactFinding } from '../common/finding.ts';
 import { BodyLayer } from './body_layer.ts';
 import { distinctColour, type Theme } from './colours.ts';
+import { FindingOverlay } from './finding_overlay.ts';
 import { type Frame, type FrameSource, indexAt } from './frames.ts';
 import type { Framing } from './framing.ts';
 import { Ground } from './ground.ts';
@@ -17,6 +19,7 @@ import type { TemplateCache } from './shape_meshes.ts';
 export interface Drawn {
   bodies: BodyLayer['drawn'];
   arrows: Overlays['arrows'];
+  finding: FindingOverlay['arrows']; // the engine's normal and the exact one
 }
 
 export class SourceLayer {
@@ -25,6 +28,8 @@ export class SourceLayer {
   readonly bodies: BodyLayer;
   readonly #scene: Scene;
   readonly #overlays: Overlays;
+  readonly #findings = new FindingOverlay();
+  #finding: { finding: ContactFinding; length: number } | null = null;
   readonly #ground: Ground;
   readonly #sun = new DirectionalLight('#ffffff', 2.1);
   readonly #sky = new HemisphereLight('#ffffff', '#8a8f98', 1.25);
@@ -56,7 +61,14 @@ export class SourceLayer {
     this.#sets = new UnionFind(scene.bodies.length);
     this.#moves = scene.bodies.map((body) => body.type === 'dynamic');
     this.three.matrixAutoUpdate = false;
-    this.three.add(this.bodies.group, this.#overlays.group, this.#ground.group, this.#sun, this.#sky);
+    this.three.add(
+      this.bodies.group,
+      this.#overlays.group,
+      this.#findings.group,
+      this.#ground.group,
+      this.#sun,
+      this.#sky,
+    );
     this.#sun.position.set(0.45, 1, 0.7);
   }
 
@@ -69,11 +81,12 @@ export class SourceLayer {
 
   /** Content of the picture as numbers, read from the buffers that are drawn. */
   get drawn(): Drawn {
-    return { bodies: this.bodies.drawn, arrows: this.#overlays.arrows };
+    return { bodies: this.bodies.drawn, arrows: this.#overlays.arrows, finding: this.#findings.arrows };
   }
 
   build(framing: Framing, theme: Theme, pixelRatio: number): void {
     this.#ground.build(framing.center, framing.radius, theme);
+    this.#findings.pixels = 11 * pixelRatio;
     this.#overlays.pixels = (this.#scene.bodies.length > 60 ? 5 : 8) * pixelRatio;
     this.#sky.intensity = theme.dark ? 1.0 : 1.35;
   }
@@ -95,6 +108,11 @@ export class SourceLayer {
     this.#shown = -1;
   }
 
+  /** A finding to draw in its frame, with arrows of this length [m]. */
+  set finding(found: { finding: ContactFinding; length: number } | null) {
+    this.#finding = found;
+  }
+
   /** Colours and overlays of the shown frame. */
   paint(options: ViewOptions, theme: Theme, scales: ArrowScales, marked: number): void {
     if (!this.#frame) return;
@@ -113,6 +131,8 @@ export class SourceLayer {
       this.#c,
     );
     this.#overlays.draw(this.source, this.#frame, this.bodies, options, theme, scales, this.#colours);
+    const found = this.#finding?.finding.step === this.#frame.step ? this.#finding : null;
+    this.#findings.draw(found?.finding ?? null, theme, found?.length ?? 0);
   }
 
   /** Island of a body at this frame; -1: it belongs to none. */
@@ -139,6 +159,7 @@ export class SourceLayer {
   dispose(): void {
     this.bodies.dispose();
     this.#overlays.dispose();
+    this.#findings.dispose();
     this.#ground.dispose();
     this.#sun.dispose();
     this.#sky.dispose();

@@ -5,12 +5,14 @@
 
 import type { Focus } from '../common/cursor.ts';
 import { el } from '../common/elements.ts';
+import { findingKey } from '../common/finding.ts';
 import { stepAt } from '../common/steps.ts';
 import type { JumpTarget, ReplayActions } from './actions.ts';
+import { bodyNames } from './body_names.ts';
 import type { ReplayContext } from './context.ts';
 import { Controls } from './controls.ts';
 import { followPointer, followTheme, type PointerActions } from './follow.ts';
-import { type Frame, type FrameSource, indexAt } from './frames.ts';
+import { type FrameSource, indexAt } from './frames.ts';
 import { bodyReach } from './framing.ts';
 import { Inspector } from './inspector.ts';
 import {
@@ -25,37 +27,17 @@ import {
 } from './jumps.ts';
 import { bindKeys } from './keys.ts';
 import { decodeLink, encodeLink, viewOfHash, withView } from './link.ts';
+import { Measure } from './measure.ts';
+import { NotesLayer, type NotesOf } from './notes_layer.ts';
 import { PanelLabels } from './panel_labels.ts';
+import { contactOf, type Pinned } from './pinned.ts';
 import { Player } from './player.ts';
 import type { Scene } from './scene.ts';
-import type { Vec3 } from './vectors.ts';
-import { type Pick, ReplayView } from './view.ts';
+import { sub, type Vec3 } from './vectors.ts';
+import { type CameraState, type Pick, ReplayView } from './view.ts';
 
 /** More pictures than this make each too small to begin with. */
 const mostShownAtFirst = 4;
-
-/** Selection that the inspector goes on showing. */
-interface Pinned {
-  spec: string;
-  body: number;
-  other?: number; // body, of a contact looked at
-  contact?: { index: number; step: number }; // contact that is shown as long as the frame is that of its step
-}
-
-/** The contact that is looked at: the one that was named, else the deepest of the two bodies; -1 where there is none. */
-function contactOf(pinned: Pinned, { contacts, step }: Frame): number {
-  const { body, other, contact } = pinned;
-  let found = -1;
-  if (!contacts) return found;
-  if (contact && contact.step === step && contact.index < contacts.count) return contact.index;
-  if (other === undefined) return found;
-  for (let i = 0; i < contacts.count; ++i) {
-    const [a, b] = [contacts.bodyA[i], contacts.bodyB[i]];
-    if (!((a === body && b === other) || (a === other && b === body))) continue;
-    if (found < 0 || (contacts.depth[i] as number) > (contacts.depth[found] as number)) found = i;
-  }
-  return found;
-}
 
 export class ReplayStage implements ReplayActions {
   readonly view: ReplayView;
@@ -64,13 +46,19 @@ export class ReplayStage implements ReplayActions {
   readonly #context: ReplayContext;
   readonly #scene: Scene;
   readonly controls: Controls;
-  readonly #inspector: Inspector;
+  readonly #inspector: Inspector; // beside the picture: what was chosen
+  readonly #pointed: Inspector; // over it: what the pointer is on
+  readonly #notes = new NotesLayer();
+  readonly #measure = new Measure();
   readonly #labels: PanelLabels;
   readonly #stage: HTMLElement;
   readonly #ends: (() => void)[] = [];
   #chosen: Set<string>; // specs that have a picture
   #pinned: Pinned | null = null;
   #hover: Pick | null = null;
+  #followed: Vec3 | null = null; // where the body was that the camera goes along with
+  following = false;
+  measuring = false;
   readonly #thinned: Map<FrameSource, () => Promise<FrameSource>> | null;
   #linkTimer: ReturnType<typeof setTimeout> | undefined;
   #left = false; // a link was followed: the address is already that of the next page
@@ -88,12 +76,13 @@ export class ReplayStage implements ReplayActions {
     this.#scene = scene;
     this.sources = sources;
     this.#stage = el('div', { class: 'stage' });
-    root.append(this.#stage);
+    this.#inspector = new Inspector(scene, false);
+    this.#pointed = new Inspector(scene, true);
+    root.append(el('div', { class: 'stage-row' }, this.#stage, this.#inspector.element));
     this.view = new ReplayView(this.#stage, scene);
     this.player = new Player(context.cursor.time, () => this.controls?.refresh());
-    this.#inspector = new Inspector(scene);
     this.#labels = new PanelLabels();
-    this.#stage.append(this.#labels.element, this.#inspector.element);
+    this.#stage.append(this.#notes.element, this.#labels.element, this.#pointed.element);
     this.#chosen = this.#firstChoice();
     this.player.end = Math.max(0, ...sources.map((s) => s.times[s.times.length - 1] ?? 0));
     if (this.player.end < 1.2) this.player.speed = 0.25;
@@ -106,8 +95,10 @@ export class ReplayStage implements ReplayActions {
     addEventListener('hashchange', leave);
     this.#ends.push(() => removeEventListener('hashchange', leave));
     this.#follow();
-    this.#restore();
+    const camera = this.#restore();
     this.#choose();
+    if (camera) this.view.camera = camera;
+    this.view.mark(this.#pinned?.body ?? -1);
     this.#seek(context.cursor.time.value);
   }
 
@@ -192,13 +183,39 @@ export class ReplayStage implements ReplayActions {
     }
     this.setTime(found.event.time);
     this.controls.say(`${found.source.label}: ${describe(found.event)}`);
-    if (to === 'normal') this.#lookAtBodies(bodiesOf(found.event), found.source, found.event.contact ?? null);
+    if (to !== 'normal') return;
+    const { spec } = found.source;
+    const key = findingKey(found.event.what ?? '', 'normal');
+    this.focus({ spec, bodies: bodiesOf(found.event), contact: found.event.contact ?? null, finding: key });
   }
 
-  focus({ spec, bodies, contact }: Focus): void {
+  focus({ spec, bodies, contact, finding = null }: Focus): void {
     const source = this.engines.find((s) => s.spec === spec && s.times.length > 0);
     if (source && !this.isShown(source)) this.toggleEngine(source);
+    if (source && finding && this.#showFinding(source, finding)) return;
+    this.view.setFinding(null);
     this.#lookAtBodies(bodies, source, contact);
+  }
+
+  /** The camera goes along with the chosen body, or no longer. */
+  toggleFollow(): void {
+    this.following = !this.following && this.#pinned !== null;
+    this.#followed = null;
+    if (!this.following && this.#pinned === null)
+      this.controls.say('Click a body first: the camera goes along with it.');
+    this.#goAlong();
+    this.controls.refresh();
+    this.#remember();
+  }
+
+  toggleMeasure(): void {
+    this.measuring = !this.measuring;
+    this.#measure.clear();
+    this.controls.say(
+      this.measuring ? 'Click two points for their distance, a third one for the angle at the second.' : '',
+    );
+    this.controls.refresh();
+    this.view.invalidate();
   }
 
   setOptions(change: Parameters<ReplayView['setOptions']>[0]): void {
@@ -240,6 +257,7 @@ export class ReplayStage implements ReplayActions {
     this.view.onCamera = () => this.#remember();
     this.view.onDraw = () => {
       this.#labels.place(this.view);
+      this.#notes.place(this.view, this.#allNotes());
       this.#inspect();
     };
     this.#followPointer();
@@ -255,6 +273,12 @@ export class ReplayStage implements ReplayActions {
         this.#inspect();
       },
       click: (pick) => {
+        if (this.measuring) {
+          if (pick) this.#measure.add(pick.source, pick.frame, pick.body, pick.point);
+          this.view.invalidate();
+          return;
+        }
+        this.view.setFinding(null);
         this.#pinned = pick && pick.body >= 0 ? { spec: pick.source.spec, body: pick.body } : null;
         this.view.mark(this.#pinned?.body ?? -1);
         this.#inspect();
@@ -269,19 +293,63 @@ export class ReplayStage implements ReplayActions {
     if (this.#hover) {
       const now = this.view.frameOf(this.#hover.source);
       const stale = now !== null && now.frame !== this.#hover.frame;
-      this.#inspector.show(stale ? { ...this.#hover, frame: now.frame, contact: -1 } : this.#hover, false);
-      return;
-    }
+      this.#pointed.show(stale ? { ...this.#hover, frame: now.frame, contact: -1 } : this.#hover);
+    } else this.#pointed.show(null);
     const pinned = this.#pinned;
     const source = pinned && this.sources.find((s) => s.spec === pinned.spec);
     const now = source ? this.view.frameOf(source) : null;
     const contact = pinned && now ? contactOf(pinned, now.frame) : -1;
     const what =
       pinned && source && now ? { source, frame: now.frame, body: pinned.body, shape: -1, contact, island: -1 } : null;
-    this.#inspector.show(what, true);
+    const found = pinned?.finding?.found;
+    this.#inspector.show(what, found && found.step === now?.frame.step ? found : null);
+  }
+
+  /** Names of bodies, of the arrows of a finding, and measures. */
+  #allNotes(): NotesOf[] {
+    const all: NotesOf[] = [];
+    const found = this.view.findingNotes;
+    if (found) all.push(found);
+    const measured = this.#measure.at((source) => this.view.frameOf(source)?.frame ?? null);
+    if (measured) all.push(measured);
+    if (!this.view.options.layers.names) return all;
+    for (const source of this.shown) {
+      const frame = this.view.frameOf(source)?.frame;
+      if (frame) all.push({ source, notes: bodyNames(this.#scene, frame) });
+    }
+    return all;
+  }
+
+  /** Shows a finding of the audit alone and from near; false where there is none. */
+  #showFinding(source: FrameSource, key: string): boolean {
+    const found = this.#context.findingOf?.(source.spec, key);
+    if (!found) return false;
+    const [a, b] = found.bodies;
+    const body = this.#scene.bodies[b]?.type === 'static' ? a : b;
+    this.#pinned = { spec: source.spec, body, other: body === a ? b : a, finding: { key, found } };
+    if (found.contact >= 0) this.#pinned.contact = { index: found.contact, step: found.step };
+    this.#chosen = new Set([source.spec]);
+    this.view.setFinding({ spec: source.spec, finding: found });
+    this.#choose();
+    this.view.mark(body);
+    this.view.lookAtFinding();
+    return true;
+  }
+
+  /** Moves the camera as far as the followed body has moved. */
+  #goAlong(): void {
+    const pinned = this.#pinned;
+    const source = pinned && this.sources.find((s) => s.spec === pinned.spec);
+    if (!this.following || !pinned || !source || source.times.length === 0) return;
+    const { position } = source.frame(indexAt(source.times, this.time));
+    const now = [0, 1, 2].map((k) => position[3 * pinned.body + k] as number) as Vec3;
+    if (!now.every(Number.isFinite)) return;
+    if (this.#followed) this.view.shiftCamera(sub(now, this.#followed));
+    this.#followed = now;
   }
 
   #seek(time: number): void {
+    this.#goAlong();
     this.view.setTime(time);
     this.controls.time = time;
     if (!this.player.playing) this.#remember();
@@ -308,7 +376,8 @@ export class ReplayStage implements ReplayActions {
 
   // ---- the link ----
 
-  #restore(): void {
+  /** The state of the link, but for the camera, which is returned: it is set when there are pictures. */
+  #restore(): CameraState | undefined {
     const state = decodeLink(this.#context.state ?? viewOfHash(location.hash));
     if (state.options) this.view.setOptions(state.options);
     if (state.shown) {
@@ -319,12 +388,17 @@ export class ReplayStage implements ReplayActions {
     const { dt } = this.#context;
     const time = state.step !== undefined && dt ? state.step * dt : state.time;
     if (time !== undefined) this.#context.cursor.time.set(Math.min(time, this.player.end));
-    if (state.camera) this.view.camera = state.camera;
     const spec = this.shown.find((s) => s.spec === state.of)?.spec ?? this.shown[0]?.spec;
-    if (state.body === undefined || state.body >= this.#scene.bodies.length || spec === undefined) return;
+    if (state.body === undefined || state.body >= this.#scene.bodies.length || spec === undefined) return state.camera;
     this.#pinned = { spec, body: state.body };
-    const { contact, step } = state;
+    this.following = state.follow ?? false;
+    const { contact, step, finding: key } = state;
     if (contact !== undefined && step !== undefined) this.#pinned.contact = { index: contact, step };
+    const found = key === undefined ? null : (this.#context.findingOf?.(spec, key) ?? null);
+    if (!found || key === undefined) return state.camera;
+    this.#pinned.finding = { key, found };
+    this.view.setFinding({ spec, finding: found });
+    return state.camera;
   }
 
   /** Writes the address a little later: not while it plays or the camera turns, and never over another page's. */
@@ -353,6 +427,8 @@ export class ReplayStage implements ReplayActions {
       body: this.#pinned?.body ?? -1,
       ...(this.#pinned ? { of: this.#pinned.spec } : {}),
       ...(this.#pinned?.contact && this.#pinned.contact.step === step ? { contact: this.#pinned.contact.index } : {}),
+      ...(this.#pinned?.finding?.found.step === step ? { finding: this.#pinned?.finding?.key ?? '' } : {}),
+      follow: this.following,
     });
   }
 

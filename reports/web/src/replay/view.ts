@@ -8,10 +8,12 @@
 //   view.setSources([...]); view.setTime(0.5); view.setOptions({...});
 // Sources may grow: setTime() looks at their times anew; refresh() after a frame that was shown has changed.
 import { Color, Matrix4, Raycaster, Vector2, Vector3, WebGLRenderer } from 'three';
+import { type ContactFinding, nearestExact, placeOf } from '../common/finding.ts';
 import { CameraRig, type CameraState } from './camera_rig.ts';
 import { lightTheme, type Theme } from './colours.ts';
+import { findingNotes, type Note } from './finding_overlay.ts';
 import type { Frame, FrameSource } from './frames.ts';
-import { arrowScales, frameScene } from './framing.ts';
+import { arrowScales, bodyReach, frameScene } from './framing.ts';
 import { defaultOptions, type ViewOptions } from './layers.ts';
 import { occludingBodies } from './occluder_fade.ts';
 import type { ArrowScales } from './overlays.ts';
@@ -19,7 +21,7 @@ import { nearestContact, type Rect, rectAt, tile, toDevice } from './picking.ts'
 import type { Scene } from './scene.ts';
 import { TemplateCache } from './shape_meshes.ts';
 import { type Drawn, SourceLayer } from './source_layer.ts';
-import type { Vec3 } from './vectors.ts';
+import { add, type Vec3 } from './vectors.ts';
 
 export type { CameraState } from './camera_rig.ts';
 
@@ -59,6 +61,12 @@ export interface Pick {
   island: number;
 }
 
+/** A finding of the audit in the run of an engine. */
+export interface ShownFinding {
+  spec: string;
+  finding: ContactFinding;
+}
+
 /** A ray of the world: where the pointer aims. */
 export interface Aim {
   origin: Vec3;
@@ -95,6 +103,7 @@ export class ReplayView {
   #time = 0;
   #marked = -1;
   #glass: ReadonlySet<number> = new Set();
+  #finding: ShownFinding | null = null;
   #stale = true; // colours and overlays
   #requested = 0;
   #width = 1;
@@ -159,6 +168,43 @@ export class ReplayView {
     this.invalidate();
   }
 
+  /** Draws a finding in its frame and makes all other bodies glass; null: none. */
+  setFinding(found: ShownFinding | null): void {
+    if (found?.finding === this.#finding?.finding) return;
+    this.#finding = found;
+    this.#fadeOccluders();
+    this.#giveFinding();
+    this.#stale = true;
+    this.invalidate();
+  }
+
+  /** Moves the camera to the finding: across its normals, so that the angle between them has its true size. */
+  lookAtFinding(): void {
+    const finding = this.#finding?.finding;
+    const at = finding && placeOf(finding);
+    if (!finding || !at) return;
+    const away = new Vector3(...this.#rig.position).sub(new Vector3(...this.#rig.looking.center)).normalize();
+    const exact = new Vector3(...(nearestExact(finding) ?? [0, 1, 0]));
+    const across = new Vector3(...(finding.said?.normal ?? [0, 0, 0])).cross(exact);
+    if (across.length() > 1e-3) {
+      across.normalize();
+      if (across.dot(away) < 0) across.negate();
+    } else across.copy(away).addScaledVector(exact, -away.dot(exact)).normalize();
+    const length = this.#findingLength(finding);
+    const middle = new Vector3(...at).addScaledVector(exact, 0.4 * length).toArray() as Vec3;
+    this.#rig.lookFrom(middle, 1.7 * length, across.toArray() as Vec3);
+    this.#fadeOccluders();
+    this.invalidate();
+  }
+
+  /** Texts at points of the finding; none while another frame is shown. */
+  get findingNotes(): { source: FrameSource; notes: Note[] } | null {
+    const found = this.#finding;
+    const source = this.#sources.find((s) => s.spec === found?.spec && !s.ghost);
+    if (!found || !source || this.frameOf(source)?.frame.step !== found.finding.step) return null;
+    return { source, notes: findingNotes(found.finding, this.#findingLength(found.finding)) };
+  }
+
   /** A frame that is shown has changed. */
   refresh(): void {
     for (const { layers } of this.#pictures) for (const layer of layers) layer.forget();
@@ -205,6 +251,12 @@ export class ReplayView {
   set camera(state: CameraState) {
     this.#rig.state = state;
     this.invalidate();
+  }
+
+  /** Moves the camera and what it looks at by a vector [m]. */
+  shiftCamera(by: Vec3): void {
+    const { position, target, zoom } = this.#rig.state;
+    this.camera = { position: add(position, by), target: add(target, by), zoom };
   }
 
   // ---- pointer ----
@@ -381,15 +433,37 @@ export class ReplayView {
         layers: group.map((source, i) => new SourceLayer(this.#scene, source, this.#templates, i === 0, this.#glass)),
       }));
     for (const { layers } of this.#pictures) for (const layer of layers) this.#dress(layer);
+    this.#giveFinding();
     this.#layout();
     this.#stale = true;
     this.invalidate();
   }
 
-  /** Walls before the scene become glass, others stone again. */
+  /** Length of the arrows of a finding: as long as the smaller of its bodies reaches [m]. */
+  #findingLength({ bodies }: ContactFinding): number {
+    const reaches = bodies.map((b) => bodyReach(this.#scene, b)).filter((r) => r > 0 && Number.isFinite(r));
+    return Math.min(this.#rig.framing.radius, ...reaches);
+  }
+
+  #giveFinding(): void {
+    const found = this.#finding;
+    for (const { layers } of this.#pictures)
+      for (const layer of layers)
+        layer.finding =
+          found && layer.source.spec === found.spec && !layer.source.ghost
+            ? { finding: found.finding, length: this.#findingLength(found.finding) }
+            : null;
+  }
+
+  /** Walls before the scene, and what has no part in a finding, become glass, others stone again. */
   #fadeOccluders(): void {
     if (this.#scene.dimension === 2) return;
     const glass = occludingBodies(this.#scene, this.#rig.looking, this.#rig.position);
+    const pair = this.#finding?.finding.bodies;
+    if (pair)
+      for (let b = 0; b < this.#scene.bodies.length; ++b) {
+        if (!pair.includes(b)) glass.add(b);
+      }
     if (glass.size === this.#glass.size && [...glass].every((b) => this.#glass.has(b))) return;
     this.#glass = glass;
     this.#rebuild();

@@ -3,6 +3,7 @@
 //
 // The page's data as reports/page/page_data.cpp, audit_json.cpp, refinements.cpp and study_charts.cpp write them. SI units; dt and
 // all costs in seconds. A field that only newer runs have is marked with `?` or may be null.
+import type { ContactFinding } from '../common/finding.ts';
 import type { Maybe, Stored } from '../common/format.ts';
 
 /** A verdict as shown; the order in the page's `symbols` is from the best to the worst. */
@@ -122,6 +123,7 @@ export type Regression = 'unchanged' | 'better' | 'worse' | 'no record';
 export interface Judged {
   grade: string; // "A" .. "E"; "": not graded
   by: string; // the metric that decides
+  of?: string; // quantity, body or joint that it is largest for; "" the whole scene
   relative: Maybe; // its error over the scenario's own scale
   ideal: Maybe; // the same of an ideal run of the engine's scheme; null: not known
   beside: 'unknown' | 'nearer' | 'same' | 'farther'; // relation to that ideal run
@@ -176,6 +178,7 @@ export interface BriefCase {
   reason: string;
   refusal?: string; // refusal of an unsupported case: adapter or library
   value: Maybe; // value of the scenario's main metric
+  subject?: string; // quantity, body or joint that it is largest for
   bound: Maybe;
   range?: string | null; // range of that metric over orders of insertion, if it is wider than rounding
   step: Step | null;
@@ -255,6 +258,7 @@ export interface Audit {
   pointErrorMax: Maybe;
   worst: string; // "block|floor at t=0.25"
   note: string;
+  findings?: ContactFinding[]; // the worst of each kind; of one case alone
 }
 
 export interface LedgerLine {

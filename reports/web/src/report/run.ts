@@ -38,6 +38,17 @@ export function engineColour(engine: string): string {
   const index = names.indexOf(engine);
   return palette[(index < 0 ? names.length : index) % palette.length] as string;
 }
+/** Dimensions that an engine simulates; empty where it did not say so. */
+export function dimensionsOf(engine: string): number[] {
+  const given = run.engines.find((e) => e.name === engine)?.described?.capabilities.dimensions;
+  return Array.isArray(given) ? given.filter((d): d is number => typeof d === 'number') : [];
+}
+/** "2D only"; "" for an engine that does both. */
+export function dimensionNote(engine: string): string {
+  const [only, more] = dimensionsOf(engine);
+  return only === undefined || more !== undefined ? '' : `${only}D only`;
+}
+
 type Query = Record<string, string | number | null | undefined>;
 const withQuery = (path: string, query: Query): string => {
   const parts = Object.entries(query).filter(([, v]) => v !== undefined && v !== null && v !== '');

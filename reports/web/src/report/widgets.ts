@@ -5,7 +5,8 @@
 import { type Attributes, type Child, el } from '../common/elements.ts';
 import { duration, format, full, type Maybe, timeStep } from '../common/format.ts';
 import type { Column, Regression, Shown } from './data.ts';
-import { engineLink, subtitleOf, verdictText } from './run.ts';
+import { meaningOf } from './glossary_terms.ts';
+import { dimensionNote, engineLink, subtitleOf, verdictText } from './run.ts';
 
 export const panel = (id: string, title: string | null, ...children: Child[]): HTMLElement =>
   el('section', { class: 'panel', id }, title ? el('h2', null, title) : null, children);
@@ -48,6 +49,13 @@ export const durationCell = (seconds: Maybe): HTMLElement =>
   el('td', { class: 'num', title: `${full(seconds)} s` }, duration(seconds));
 export const stepCell = (dt: Maybe): HTMLElement => el('td', { class: 'num' }, timeStep(dt));
 
+/** A word with its meaning on hover, where the glossary has one. */
+export function term(text: string, name = text): Child {
+  const meaning = meaningOf(name);
+  return meaning === undefined ? text : el('abbr', { class: 'term', title: meaning }, text);
+}
+const explained = (child: Child): Child => (typeof child === 'string' ? term(child) : child);
+
 const heads = (titles: Child[], kind: (index: number) => string | null): HTMLElement =>
   el(
     'thead',
@@ -55,7 +63,7 @@ const heads = (titles: Child[], kind: (index: number) => string | null): HTMLEle
     el(
       'tr',
       null,
-      titles.map((t, i) => el('th', { class: kind(i), scope: 'col' }, t)),
+      titles.map((t, i) => el('th', { class: kind(i), scope: 'col' }, explained(t))),
     ),
   );
 /** A row of heads; `numeric` marks those over numbers, the first one sticks. */
@@ -84,6 +92,7 @@ export function specHead(
       'th',
       { class: 'group', colspan: g.count, scope: 'colgroup' },
       el('a', { href: engineLink(g.engine) }, g.engine),
+      dimensionNote(g.engine) ? el('span', { class: 'only' }, ` ${dimensionNote(g.engine)}`) : null,
     ),
   );
   return el('thead', null, el('tr', null, leading, engines), el('tr', null, columns.map(columnHead)));
@@ -98,7 +107,7 @@ export function select(
 ): HTMLElement {
   const choices = options.map(([key, text]) => el('option', { value: key, selected: key === value }, text));
   const change = (e: Event) => onchange((e.target as HTMLSelectElement).value);
-  return el('label', null, label, el('select', { 'aria-label': label, onchange: change }, choices));
+  return el('label', null, term(label), el('select', { 'aria-label': label, onchange: change }, choices));
 }
 
 export function copyButton(text: string): HTMLElement {
@@ -118,7 +127,7 @@ export const facts = (entries: [string, Child][]): HTMLElement =>
   el(
     'dl',
     { class: 'facts' },
-    entries.map(([name, value]) => [el('dt', null, name), el('dd', null, value)]),
+    entries.map(([name, value]) => [el('dt', null, term(name)), el('dd', null, value)]),
   );
 
 /** Folded content that is made when it is unfolded. */

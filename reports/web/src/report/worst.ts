@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+import { type ContactFinding, findingKey } from '../common/finding.ts';
 
 export interface Place {
   pair: string; // "block|floor"; "" where none is named
@@ -12,6 +13,7 @@ export interface Place {
   spec: string; // "" where none is named
 }
 
+const drawn = new Set(['missed', 'spurious', 'normal']);
 const kinds = new Set(['missed', 'spurious', 'spurious, far apart', 'normal']);
 
 /**
@@ -33,9 +35,14 @@ export function worstPlace(text: string): Place | null {
   return { pair, bodies: pair ? pair.split('|') : [], time, step, contact, dt, what, spec };
 }
 
+/** Key of the finding at the place; null where it is of no kind that can be drawn. */
+export const findingAt = (place: Place | null, auditor: string): string | null =>
+  place === null || !drawn.has(place.what) ? null : findingKey(auditor, place.what as ContactFinding['what']);
+
 /** Query of a link to the place. The step identifies the exact frame, since the time has lost digits. */
-export function placeQuery(place: Place | null, dt: number | undefined) {
-  return { dt: dt ?? place?.dt, t: place?.time, step: place?.step, pair: place?.pair, contact: place?.contact };
+export function placeQuery(place: Place | null, dt: number | undefined, auditor = 'in_run') {
+  const { time, step, pair, contact } = place ?? {};
+  return { dt: dt ?? place?.dt, t: time, step, pair, contact, finding: findingAt(place, auditor) };
 }
 
 /** The moment of the place in a run of this time step [s]. */

@@ -38,7 +38,7 @@ async function findings(it: Opened, hash: string): Promise<string[]> {
 
 describe('a run has no finding of axe-core', { skip }, () => {
   const it = reportOf(smokeRun);
-  const tabs = ['', '#scoreboard', '#cost', '#contacts', '#ledger', '#method'];
+  const tabs = ['', '#scoreboard', '#cost', '#contacts', '#ledger', '#method', '#glossary'];
   for (const hash of [...tabs, '#/scenario/free_flight', '#/scenario/box_stack', '#/engine/rigor', '#/engine/box2d'])
     test(hash || 'the overview', async () => assert.deepEqual(await findings(it, hash), []));
 });

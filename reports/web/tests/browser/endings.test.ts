@@ -16,10 +16,10 @@ describe('the report of a run that went badly', { skip }, () => {
     await it.open('#scoreboard');
     for (const verdict of ['crashed', 'timeout', 'non_finite']) {
       await it.page.getByLabel('Ending', { exact: true }).selectOption(verdict);
-      const rows = it.page.locator('#scoreboard tbody tr');
+      const rows = it.page.locator('#scoreboard tbody tr[data-scenario]');
       const count = await rows.count();
       assert.ok(count > 0, verdict);
-      assert.equal(await it.page.locator(`#scoreboard tbody tr:has(.v-${verdict})`).count(), count);
+      assert.equal(await it.page.locator(`#scoreboard tbody tr[data-scenario]:has(.v-${verdict})`).count(), count);
     }
     await it.page.getByLabel('Ending', { exact: true }).selectOption('crashed');
     await it.page.locator('#scoreboard a.v-crashed').first().click();

@@ -10,7 +10,7 @@ import { open, query, reportOf, screenshots, skip, smokeRun, watched } from '../
 
 describe('the report of a real run', { skip }, () => {
   const it = reportOf(smokeRun);
-  const rows = () => it.page.locator('#scoreboard tbody tr').count();
+  const rows = () => it.page.locator('#scoreboard tbody tr[data-scenario]').count();
   const shown = () => it.page.waitForSelector('#page[data-shown]');
 
   test('opens with a row for every scenario and a cell for every engine', async () => {
@@ -21,11 +21,57 @@ describe('the report of a real run', { skip }, () => {
     await it.page.screenshot({ path: join(screenshots, 'overview.png') });
     await it.open('#scoreboard');
     const names = query(it.run, 'SELECT name FROM scenarios ORDER BY position').flat();
-    assert.deepEqual(await it.page.locator('#scoreboard tbody th a').allTextContents(), names);
+    assert.deepEqual((await it.page.locator('#scoreboard tbody th a').allTextContents()).sort(), names.sort());
     const specs = query(it.run, 'SELECT count(DISTINCT spec) FROM cases').flat()[0] as number;
     assert.equal(await it.page.locator('#scoreboard a.cell').count(), names.length * specs);
     assert.match((await it.page.locator('body').textContent()) ?? '', /authors of one of the engines/);
     await it.page.screenshot({ path: join(screenshots, 'scoreboard.png') });
+    it.clean();
+  });
+
+  test('has a row of totals, a heading for each task, and says which engine knows one dimension only', async () => {
+    await it.open('#scoreboard');
+    const spec = 'bullet:preset=matched';
+    const graded = query(
+      it.run,
+      `SELECT count(*) FROM cases c WHERE spec = '${spec}' AND grade <> '' AND dt = (SELECT min(dt) FROM cases WHERE scenario = c.scenario)`,
+    ).flat()[0];
+    const near = query(
+      it.run,
+      `SELECT count(*) FROM cases c WHERE spec = '${spec}' AND grade IN ('A', 'B', 'C') AND dt = (SELECT min(dt) FROM cases WHERE scenario = c.scenario)`,
+    ).flat()[0];
+    assert.match(
+      await it.text(`#scoreboard tr.totals [data-spec="${spec}"]`),
+      new RegExp(`${near} of ${graded} ≤ 1e-2`),
+    );
+    const headings = await it.page.locator('#scoreboard tr.task-group th').allTextContents();
+    assert.ok(
+      headings.some((text) => text.startsWith('A sliding box')),
+      headings.join('; '),
+    );
+    assert.match(await it.text('#scoreboard thead th.group:has(a[href="#/engine/box2d"])'), /2D only/);
+    assert.doesNotMatch(await it.text('#scoreboard thead th.group:has(a[href="#/engine/rigor"])'), /only/);
+    await it.page.locator('#scoreboard').getByLabel('Groups').selectOption('none');
+    assert.equal(await it.page.locator('#scoreboard tr.task-group').count(), 0);
+    assert.match(it.page.url(), /group=none/);
+    it.clean();
+  });
+
+  test('an error of named quantities says which, and terms say what they mean', async () => {
+    await it.open('#scoreboard');
+    const named = query(
+      it.run,
+      `SELECT c.scenario, m.subject FROM cases c JOIN metrics m ON m.case_id = c.id WHERE c.graded_by = 'quantity_error'
+       AND m.name = 'quantity_error' AND m.subject <> '' AND m.value = (SELECT max(value) FROM metrics WHERE case_id = c.id AND name = 'quantity_error') LIMIT 1`,
+    )[0] as [string, string];
+    const text = await it.text(`#scoreboard tr[data-scenario="${named[0]}"] .metric`);
+    assert.match(text, /^relative error: /);
+    assert.doesNotMatch(text, /quantity error/);
+    const term = it.page.locator('#scoreboard abbr.term', { hasText: 'Grade' }).first();
+    assert.match((await term.getAttribute('title')) ?? '', /Class of accuracy/);
+    await it.open('#glossary');
+    assert.match(await it.text('#glossary dl'), /Witness points/);
+    assert.match(await it.text('#glossary'), /max_t \|x\(t\) - x_exact\(t\)\|/);
     it.clean();
   });
 
@@ -70,7 +116,10 @@ describe('the report of a real run', { skip }, () => {
     assert.equal(await rows(), all);
     await it.page.locator('#scoreboard').getByLabel('Preset').selectOption('matched');
     const columns = query(it.run, "SELECT count(DISTINCT spec) FROM cases WHERE preset = 'matched'").flat()[0];
-    assert.equal(await it.page.locator('#scoreboard tbody tr').first().locator('a.cell').count(), columns);
+    assert.equal(
+      await it.page.locator('#scoreboard tbody tr[data-scenario]').first().locator('a.cell').count(),
+      columns,
+    );
     await it.page.getByRole('button', { name: 'Reset' }).click();
     await it.page.getByLabel('Ending', { exact: true }).selectOption('known_deviation');
     const deviating = query(

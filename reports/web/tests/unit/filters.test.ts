@@ -13,7 +13,7 @@ const columns = ['bullet', 'bullet:preset=matched', 'ode'].map(
 const data = {
   columns,
   engines: [{ name: 'ode' }, { name: 'spare' }],
-  tasks: [{ name: 'walking', scenarios: ['stack'] }],
+  tasks: [{ name: 'walking', title: 'Walking', about: '', scenarios: ['stack'] }],
   symbols: { pass: { symbol: '✓', word: 'pass', count: 3 } },
 };
 
@@ -101,7 +101,6 @@ test('verdict and grade must be of the same cell', () => {
 });
 
 test('scenarios are sorted by what the cells of a column say, those without a number last', () => {
-  assert.deepEqual(sorted({}), ['stack', 'pendulum', 'drop'], 'as stored');
   assert.deepEqual(sorted({ sort: 'name' }), ['drop', 'pendulum', 'stack']);
   assert.deepEqual(sorted({ sort: 'name', descending: true }), ['stack', 'pendulum', 'drop']);
   assert.deepEqual(sorted({ sort: 'metric' }), ['pendulum', 'stack', 'drop'], 'equal ones stay in their order');
@@ -110,6 +109,28 @@ test('scenarios are sorted by what the cells of a column say, those without a nu
   assert.deepEqual(sorted({ sort: 'ode' }), ['stack', 'pendulum', 'drop'], 'a crash after what ran');
   assert.deepEqual(sorted({ sort: 'bullet:preset=matched' }), ['drop', 'stack', 'pendulum']);
   assert.deepEqual(list[0]?.name, 'stack', 'the list itself is left as it is');
+});
+
+test('what differs most between engines comes first', () => {
+  const apart = list.map((s) => of.difference(s, columns, 'all'));
+  const decades = (a: number, b: number) => Math.log10(a / b);
+  assert.ok(Math.abs((apart[0] as number) - decades(0.03, 0.01)) < 1e-12);
+  assert.equal(apart[1], 10, 'a crash is further off than any error');
+  assert.ok(Math.abs((apart[2] as number) - decades(2e-3, 1e-3)) < 1e-12);
+  assert.deepEqual(sorted({}), ['pendulum', 'stack', 'drop']);
+  const alone = scenario('alone', {}, [{ spec: 'ode', value: 1, relative: 1, cost: 1, grade: 'E' }]);
+  assert.equal(of.difference(alone, columns, 'all'), -1, 'one result cannot differ');
+});
+
+test('scenarios are grouped by their first task, unless an order was chosen', () => {
+  const groups = (changes: Partial<Filters>) =>
+    of.grouped(list, { ...all, ...changes }).map((g) => [g.title, ...g.scenarios.map((s) => s.name)]);
+  assert.deepEqual(groups({}), [
+    ['Walking', 'stack'],
+    ['Other scenarios', 'pendulum', 'drop'],
+  ]);
+  assert.deepEqual(groups({ group: 'none' }), [['', 'stack', 'pendulum', 'drop']]);
+  assert.deepEqual(groups({ sort: 'name' }), [['', 'stack', 'pendulum', 'drop']]);
 });
 
 test('bars of a row are measured against its best', () => {

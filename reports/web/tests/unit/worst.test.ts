@@ -24,7 +24,14 @@ test('the step identifies the frame where the digits of the time end before it',
   assert.equal(place.what, 'spurious, far apart');
   assert.equal(place.spec, '');
   assert.equal(placeTime(place, 1 / 60), 53 / 60);
-  assert.deepEqual(placeQuery(place, 1 / 60), { dt: 1 / 60, t: 0.883333, step: 53, pair: 'a|b', contact: null });
+  assert.deepEqual(placeQuery(place, 1 / 60), {
+    dt: 1 / 60,
+    t: 0.883333,
+    step: 53,
+    pair: 'a|b',
+    contact: null,
+    finding: null,
+  });
 });
 
 test('the contact is identified among all of its frame', () => {
@@ -34,6 +41,8 @@ test('the contact is identified among all of its frame', () => {
   assert.equal(place.what, 'normal');
   assert.equal(place.spec, 'ode:preset=matched');
   assert.equal(placeQuery(place, undefined).contact, 12);
+  assert.equal(placeQuery(place, undefined).finding, 'in_run~normal');
+  assert.equal(placeQuery(place, undefined, 'fcl').finding, 'fcl~normal');
 });
 
 test('gathered over runs it also names the run', () => {

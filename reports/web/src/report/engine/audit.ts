@@ -13,6 +13,7 @@ import { placeQuery, worstPlace } from '../worst.ts';
 interface Row {
   scenario: string;
   label: string;
+  auditor: string;
   spec: string;
   dt: number | undefined;
   wrong: number;
@@ -30,6 +31,7 @@ function rowsOf(engine: Engine): { acted: Row[]; requested: Row[] } {
         return {
           scenario: s.name,
           label: labelOf(c.spec),
+          auditor: 'in_run',
           spec: c.spec,
           dt: c.dt,
           wrong: a.missed + a.spurious,
@@ -47,6 +49,7 @@ function rowsOf(engine: Engine): { acted: Row[]; requested: Row[] } {
         return {
           scenario: a.scenario,
           label: r.auditor,
+          auditor: r.auditor,
           spec,
           dt: undefined,
           wrong: r.missed + r.spurious,
@@ -66,7 +69,7 @@ function table(rows: Row[]): Child {
   const wrong = rows.reduce((n, r) => n + r.wrong, 0);
   const body = byNormal.slice(0, shown).map((r) => {
     const place = worstPlace(r.worst);
-    const href = scenarioLink(r.scenario, { spec: r.spec, ...placeQuery(place, r.dt) });
+    const href = scenarioLink(r.scenario, { spec: r.spec, ...placeQuery(place, r.dt, r.auditor) });
     return el(
       'tr',
       null,

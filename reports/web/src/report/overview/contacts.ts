@@ -95,7 +95,7 @@ function queryCell(scenario: string, rows: Audit[], auditor: string): HTMLElemen
     `${r.queries} pairs in ${r.frames} frames; ${r.overlapping} overlapping; ${r.missed} missed, ${r.spurious} spurious, ${r.undecided} undecided; ` +
     `worst normal ${full(r.normalErrorMax)} rad, depth ${full(r.depthErrorMax)} m; ${r.worst}`;
   const place = worstPlace(r.worst);
-  const href = place ? scenarioLink(scenario, { spec: place.spec, ...placeQuery(place, undefined) }) : null;
+  const href = place ? scenarioLink(scenario, { spec: place.spec, ...placeQuery(place, undefined, auditor) }) : null;
   const link = (here: boolean, text: Child) =>
     href && here ? el('a', { href, title: 'Show these poses' }, text) : text;
   const ofNormal = place?.what === 'normal';
@@ -119,7 +119,7 @@ export function contactQueries(): HTMLElement | null {
       'p',
       { class: 'muted' },
       'At sampled frames of every run, each collision engine is queried at the same poses and compared with an exact oracle. Shown: the worst angle between ',
-      'its contact normal and the nearest exact one, and the worst penetration error below; “wrong” counts overlaps that were missed or invented. A link shows the poses queried, with the contacts of the run, not the result of the query.',
+      'its contact normal and the nearest exact one, and the worst penetration error below; “wrong” counts overlaps that were missed or invented. A link shows the poses queried and draws the result of the query beside the exact one.',
     ),
     scroll(
       el(

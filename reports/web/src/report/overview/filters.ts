@@ -5,7 +5,7 @@
 // visit to another page of the report.
 
 import { Observable } from '../../common/cursor.ts';
-import { cellOf, costOf, errorOf, gradeOf, relativeOf, type StepChoice, severity } from '../cells.ts';
+import { cellOf, costOf, errorOf, gradeOf, isLost, relativeOf, type StepChoice, severity } from '../cells.ts';
 import type { Column, Scenario } from '../data.ts';
 import { run } from '../run.ts';
 
@@ -19,8 +19,9 @@ export interface Filters {
   change: string; // change against the record
   verdict: string; // ending
   step: StepChoice;
-  number: 'error' | 'relative' | 'ours' | 'cost'; // number in the cells
-  sort: string; // "name", "metric", a spec; "": as stored
+  number: 'error' | 'relative' | 'best' | 'ours' | 'cost'; // number in the cells
+  group: 'task' | 'none';
+  sort: string; // "name", "metric", a spec; "": what differs most between engines first
   descending: boolean;
 }
 export const allScenarios: Filters = {
@@ -34,6 +35,7 @@ export const allScenarios: Filters = {
   verdict: '',
   step: 'all',
   number: 'relative',
+  group: 'task',
   sort: '',
   descending: false,
 };
@@ -82,7 +84,11 @@ export function matches(s: Scenario, columns: Column[], f: Filters): boolean {
 
 /** Scenarios in the selected order; by a column: by the numbers in its cells, those without a number last. */
 export function ordered(list: Scenario[], columns: Column[], f: Filters): Scenario[] {
-  if (!f.sort) return list;
+  if (!f.sort) {
+    const keyed = list.map((s) => ({ s, key: difference(s, columns, f.step) }));
+    keyed.sort((a, b) => b.key - a.key);
+    return (f.descending ? keyed.reverse() : keyed).map((k) => k.s);
+  }
   const column = columns.find((c) => c.spec === f.sort);
   const key = (s: Scenario): (string | number)[] => {
     if (f.sort === 'name') return [s.name];
@@ -103,6 +109,41 @@ export function ordered(list: Scenario[], columns: Column[], f: Filters): Scenar
   });
   if (f.descending) keyed.reverse();
   return keyed.map((k) => k.s);
+}
+
+const noDigits = 1e-6; // relative errors of grade A count as equal
+const lost = 10; // decades: a run that ended early is further off than any error
+
+/** How far engines are apart on a scenario, in decades of relative error; -1 where fewer than two have a result. */
+export function difference(s: Scenario, columns: Column[], step: StepChoice): number {
+  const places = columns.flatMap((c) => {
+    const cell = cellOf(s, c, step);
+    if (cell === null || cell.worst.shown === 'unsupported') return [];
+    if (isLost(cell.worst.shown)) return [lost];
+    const relative = relativeOf(cell);
+    return Number.isNaN(relative) ? [] : [Math.min(lost - 1, Math.log10(Math.max(noDigits, relative) / noDigits))];
+  });
+  return places.length < 2 ? -1 : Math.max(...places) - Math.min(...places);
+}
+
+export interface Group {
+  title: string; // "" where all are in one
+  about: string;
+  scenarios: Scenario[];
+}
+
+/** Scenarios by task, each in the first one that has it; all in one where an order was chosen. */
+export function grouped(list: Scenario[], f: Filters): Group[] {
+  if (f.group === 'none' || f.sort || run.tasks.length === 0) return [{ title: '', about: '', scenarios: list }];
+  const left = new Set(list);
+  const tasks = f.task ? run.tasks.filter((t) => t.name === f.task) : run.tasks;
+  const groups = tasks.map(({ title, about, scenarios }): Group => {
+    const own = list.filter((s) => left.has(s) && scenarios.includes(s.name));
+    for (const s of own) left.delete(s);
+    return { title, about, scenarios: own };
+  });
+  groups.push({ title: 'Other scenarios', about: 'in no task', scenarios: list.filter((s) => left.has(s)) });
+  return groups.filter((g) => g.scenarios.length > 0);
 }
 
 /** Scale of the bars of a row. */

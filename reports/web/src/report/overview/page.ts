@@ -8,6 +8,7 @@ import { run, study } from '../run.ts';
 import { studySection } from '../study/page.ts';
 import { contactQueries, contactsActedUpon } from './contacts.ts';
 import { engines } from './engines.ts';
+import { glossary } from './glossary.ts';
 import { headline } from './headline.ts';
 import { insertionOrders } from './insertion_orders.ts';
 import { ledgerSummary } from './ledger.ts';
@@ -80,6 +81,7 @@ const all: Tab[] = [
       { id: 'engines', make: engines, has: hasCases },
     ],
   },
+  { id: 'glossary', title: 'Glossary', sections: [{ id: 'glossary', make: glossary, has: hasCases }] },
 ];
 
 /** Tabs that this run has something for, with their sections. */

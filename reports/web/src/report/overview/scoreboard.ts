@@ -6,12 +6,14 @@ import { type Child, el } from '../../common/elements.ts';
 import { counted, duration, format, full, ratio, timeStep, toNumber, words } from '../../common/format.ts';
 import { type Cell, cellOf, costOf, errorOf, gradeOf, isLost, logPlace, relativeOf } from '../cells.ts';
 import type { Column, Scenario, Shown } from '../data.ts';
-import { isFirstOfEngine, run, scenarioLink, subtitleOf, verdictText } from '../run.ts';
-import { changeMark, chip, gradeChip, panel, select, specHead } from '../widgets.ts';
+import { dimensionNote, dimensionsOf, isFirstOfEngine, run, scenarioLink, subtitleOf, verdictText } from '../run.ts';
+import { changeMark, chip, gradeBar, gradeChip, panel, select, specHead } from '../widgets.ts';
 import {
   allScenarios,
   type Filters,
   filters,
+  type Group,
+  grouped,
   matches,
   ordered,
   type RowScale,
@@ -61,12 +63,17 @@ function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): str
   return lines;
 }
 
-function said(cell: Cell, number: Filters['number'], digits: number): string {
+function said(s: Scenario, column: Column, cell: Cell, number: Filters['number'], digits: number): string {
   const { shown } = cell.worst;
+  if (shown === 'unsupported' && !dimensionsOf(column.engine).includes(s.dimension)) {
+    const note = dimensionNote(column.engine);
+    if (note) return note;
+  }
   if (shown === 'unsupported') return cell.worst.refusal === 'adapter' ? 'not yet' : 'n/a';
   if (isLost(shown)) return verdictText(shown).word;
   if (number === 'cost') return duration(costOf(cell));
   if (number === 'relative' && !Number.isNaN(relativeOf(cell))) return format(relativeOf(cell), digits);
+  if (number === 'best') return ratio(cell.at.judged.toBest) || '—';
   if (number === 'ours') return ratio(cell.at.judged.toOurs) || '—';
   return cell.at.value === null ? verdictText(shown).word : format(cell.at.value, digits);
 }
@@ -100,16 +107,77 @@ function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters, digi
     {
       class: `cell v ${grade ? `g-${grade}` : `v-${shown === 'pass' ? 'no_bound' : shown}`}${cell.cases.some((c) => c.judged.red) ? ' red' : ''}`,
       title: lines.join('\n'),
-      'aria-label': [`${sign} ${said(cell, f.number, digits)}`, ...lines.slice(0, 3)].join('; '),
+      'aria-label': [`${sign} ${said(s, column, cell, f.number, digits)}`, ...lines.slice(0, 3)].join('; '),
       tabindex: -1,
       href: scenarioLink(s.name, { spec: column.spec, dt: cell.worst.dt }),
     },
     el('span', { class: 'sym', 'aria-hidden': 'true' }, sign),
     ' ',
-    el('span', { class: best ? 'value best' : 'value' }, said(cell, f.number, digits)),
+    el('span', { class: best ? 'value best' : 'value' }, said(s, column, cell, f.number, digits)),
     meter('error', logPlace(relativeOf(cell), 1e-6, 1)),
     meter('cost', logPlace(costOf(cell), scale.leastCost, 1000 * scale.leastCost)),
   );
+}
+
+const mostQuantities = 2; // named in a row
+
+/** "stop time, stop distance": what a metric is largest for in the cases of a scenario. */
+function quantitiesText(subjects: (string | undefined)[]): string {
+  const named = [...new Set(subjects.filter((x): x is string => Boolean(x)))];
+  const text = named.slice(0, mostQuantities).map(words).join(', ');
+  return named.length > mostQuantities ? `${text}, …` : text;
+}
+
+/** The main metric; of an error of named quantities, which ones. */
+function mainText(s: Scenario): string {
+  const which = s.main.name.endsWith('quantity_error') ? quantitiesText(s.cases.map((c) => c.subject)) : '';
+  return which ? `error of ${which}` : words(s.main.name);
+}
+
+/** "relative error: stop time": the metrics that decide the grades of a row. */
+function decidingText(s: Scenario): string {
+  const by = [...new Set(s.cases.map((c) => c.judged.by).filter(Boolean))];
+  const parts = by.slice(0, mostQuantities).map((name) => {
+    const own = s.cases.filter((c) => c.judged.by === name).map((c) => c.judged.of);
+    return (name.endsWith('quantity_error') && quantitiesText(own)) || words(name);
+  });
+  return `relative error: ${parts.join('; ')}${by.length > mostQuantities ? '; …' : ''}`;
+}
+
+/** Grades of a column over the scenarios that are shown, and how many runs were lost. */
+function totalCell(list: Scenario[], column: Column, f: Filters, first: boolean): HTMLElement {
+  const grades = [0, 0, 0, 0, 0];
+  let [ran, gone] = [0, 0];
+  for (const s of list) {
+    const cell = cellOf(s, column, f.step);
+    if (cell === null || cell.worst.shown === 'unsupported') continue;
+    ++ran;
+    if (isLost(cell.worst.shown)) ++gone;
+    const place = 'ABCDE'.indexOf(gradeOf(cell) || '-');
+    if (place >= 0) grades[place] = (grades[place] as number) + 1;
+  }
+  const graded = grades.reduce((sum, n) => sum + n, 0);
+  const near = (grades[0] as number) + (grades[1] as number) + (grades[2] as number);
+  return el(
+    'td',
+    { class: `total${first ? ' first' : ''}`, 'data-spec': column.spec, 'data-ran': ran },
+    gradeBar(grades),
+    el('span', { class: 'small' }, graded ? `${near} of ${graded} ≤ 1e-2` : `${ran} ran`),
+    gone ? el('span', { class: 'small bad' }, ` ${gone} lost`) : null,
+  );
+}
+
+function totalRow(list: Scenario[], columns: Column[], f: Filters): HTMLElement {
+  const head = el('th', { class: 'sticky name', scope: 'row' }, `All ${list.length} shown`);
+  head.append(el('span', { class: 'sub metric' }, 'scenarios by grade'));
+  const cells = columns.map((c, i) => totalCell(list, c, f, isFirstOfEngine(columns, i)));
+  return el('tr', { class: 'totals' }, head, cells);
+}
+
+function groupRow({ title, about, scenarios }: Group, columns: Column[]): HTMLElement {
+  const head = el('th', { class: 'sticky', scope: 'rowgroup' }, `${title} `);
+  head.append(el('span', { class: 'sub' }, `${counted(scenarios.length, 'scenario')}: ${about}`));
+  return el('tr', { class: 'task-group', title: about }, head, el('td', { colspan: columns.length }));
 }
 
 function row(s: Scenario, columns: Column[], f: Filters): HTMLElement {
@@ -117,14 +185,16 @@ function row(s: Scenario, columns: Column[], f: Filters): HTMLElement {
   const isGraded = s.cases.some((c) => c.judged.relative !== null);
   const metric =
     f.number === 'relative' && isGraded
-      ? 'relative error'
-      : f.number === 'ours'
-        ? 'relative error ÷ ours'
-        : f.number === 'cost'
-          ? 'time of a step'
-          : s.main.name
-            ? `${isGraded ? '' : 'not graded: '}${words(s.main.name)}${s.main.unit && s.main.unit !== '1' ? ` [${s.main.unit}]` : ''}`
-            : 'no metric';
+      ? decidingText(s)
+      : f.number === 'best'
+        ? 'relative error ÷ best'
+        : f.number === 'ours'
+          ? 'relative error ÷ ours'
+          : f.number === 'cost'
+            ? 'time of a step'
+            : s.main.name
+              ? `${isGraded ? '' : 'not graded: '}${mainText(s)}${s.main.unit && s.main.unit !== '1' ? ` [${s.main.unit}]` : ''}`
+              : 'no metric';
   return el(
     'tr',
     { 'data-scenario': s.name },
@@ -167,7 +237,7 @@ function arrowKeys(body: HTMLElement): void {
     if (!step || !td) return;
     e.preventDefault();
     const tr = td.parentElement as HTMLElement;
-    const rows = [...body.children];
+    const rows = [...body.querySelectorAll('tr[data-scenario]')];
     const cells = links(rows[rows.indexOf(tr) + (step[0] as number)] ?? null);
     const next =
       cells[links(tr).indexOf(td as HTMLElement) + (step[1] as number)]?.querySelector<HTMLElement>('a.cell');
@@ -223,11 +293,21 @@ function controls(f: Filters): HTMLElement[] {
       [
         ['relative', 'relative error'],
         ['error', 'main metric'],
+        ['best', 'relative error ÷ best'],
         ['ours', 'relative error ÷ ours'],
         ['cost', 'time of a step'],
       ],
       f.number,
       (number) => set({ number: number as Filters['number'] }),
+    ),
+    select(
+      'Groups',
+      [
+        ['task', 'by task'],
+        ['none', 'none'],
+      ],
+      f.group,
+      (group) => set({ group: group as Filters['group'] }),
     ),
     el('button', { class: 'button', onclick: () => filters.set({ ...allScenarios }) }, 'Reset'),
   ];
@@ -275,6 +355,12 @@ function keepInAddress(f: Filters): void {
   if (!location.hash.startsWith('#/')) history.replaceState(history.state, '', scoreboardLink(f));
 }
 
+const phone = 700; // [px] narrower pages show the table first
+
+/** Open where there is room. */
+const fold = (title: string, content: HTMLElement): HTMLElement =>
+  el('details', { class: 'fold', open: innerWidth > phone }, el('summary', null, title), content);
+
 let unfollow = () => {};
 
 export function scoreboard(): HTMLElement {
@@ -308,7 +394,11 @@ export function scoreboard(): HTMLElement {
     const body = el(
       'tbody',
       null,
-      list.map((s) => row(s, columns, f)),
+      list.length > 1 ? totalRow(list, columns, f) : null,
+      grouped(list, f).map((group) => [
+        group.title ? groupRow(group, columns) : null,
+        group.scenarios.map((s) => row(s, columns, f)),
+      ]),
     );
     if (list.length === 0)
       body.append(
@@ -343,10 +433,10 @@ export function scoreboard(): HTMLElement {
       'p',
       { class: 'muted' },
       'Every cell is one engine in one preset, and opens its case. Accuracy and regression are two questions: how near a run is to the physics, ',
-      'and whether it changed against the record of its version.',
+      'and whether it changed against the record of its version. In each task the scenarios on which engines differ most come first.',
     ),
-    legend(),
-    bar,
+    fold('How to read a cell', legend()),
+    fold('Filters', bar),
     el('div', { class: 'scroll wide' }, table),
   );
 }

@@ -3,8 +3,9 @@
 //
 // Contacts of the runs, and of all collision engines at the same poses, against the exact oracle. The worst place of a
 // row is a link to its moment.
-import { type Child, el } from '../../common/elements.ts';
-import { angle, full, type Maybe } from '../../common/format.ts';
+import { el } from '../../common/elements.ts';
+import { type ContactFinding, findingKey } from '../../common/finding.ts';
+import { angle, format, full, type Maybe } from '../../common/format.ts';
 import type { Audit, Case } from '../data.ts';
 import { labelOf } from '../run.ts';
 import { chip, headRow, numberCell, panel, scroll } from '../widgets.ts';
@@ -15,13 +16,32 @@ const count = (n: number, bad = false) => el('td', { class: 'num' }, bad && n ? 
 const angleCell = (value: Maybe) =>
   el('td', { class: 'num', title: `${full(value)} rad`, 'data-value': full(value) }, angle(value));
 
-function worstCell(context: Context, c: Case, a: Audit): Child {
+const kindWords: Record<ContactFinding['what'], string> = {
+  normal: 'normal',
+  depth: 'depth',
+  missed: 'missed, overlap',
+  spurious: 'false, gap',
+};
+
+/** "normal 2.9°: block and floor, t = 0.25 s", a link to its drawing. */
+function findingLink(context: Context, c: Case, auditor: string, found: ContactFinding): HTMLElement {
+  const error = found.unit === 'rad' ? angle(found.error) : `${format(found.error)} m`;
+  const time = found.step * context.dt;
+  const text = `${kindWords[found.what]} ${error}: ${found.names.join(' and ')}, t = ${format(time)} s`;
+  const contact = found.contact < 0 ? null : found.contact;
+  const link = moment(context, c.spec, time, found.names, text, contact, findingKey(auditor, found.what));
+  link.dataset.finding = found.what;
+  return link;
+}
+
+/** A link to the drawing of the worst of each kind; to the moment alone in runs that did not keep the exact solution. */
+function worstCell(context: Context, c: Case, a: Audit): HTMLElement {
   const place = worstPlace(a.worst);
-  return el(
-    'td',
-    { class: 'small' },
-    place ? moment(context, c.spec, placeTime(place, context.dt), place.bodies, a.worst, place.contact) : a.worst,
-  );
+  const old = () =>
+    place ? moment(context, c.spec, placeTime(place, context.dt), place.bodies, a.worst, place.contact) : a.worst;
+  const found = a.findings ?? [];
+  const links = found.map((f) => el('div', null, findingLink(context, c, a.auditor, f)));
+  return el('td', { class: 'small worst' }, links.length > 0 ? links : old());
 }
 
 function auditorRow(context: Context, c: Case, a: Audit): HTMLElement {
@@ -77,7 +97,7 @@ const heads = [
   'Depth, worst [m]',
   'median [m]',
   'Point, worst [m]',
-  'Worst at',
+  'Worst',
 ];
 const pairHeads = [
   'Queried',
@@ -90,7 +110,7 @@ const pairHeads = [
   'median',
   'Depths apart, worst [m]',
   'median [m]',
-  'Worst at',
+  'Worst',
 ];
 
 export function caseAudit(context: Context): HTMLElement | null {
@@ -114,7 +134,7 @@ export function caseAudit(context: Context): HTMLElement | null {
       'p',
       { class: 'muted' },
       'Sampled poses of the run named in the grey rows: the contacts that the run itself acted upon, and every collision engine queried at the same poses, ',
-      'against the exact oracle. “Worst at” shows that moment.',
+      'against the exact oracle. A link under “Worst” opens that moment and draws the engine’s normal, the exact ones, the angle between them and the witness points.',
     ),
     scroll(el('table', { class: 'full' }, headRow(heads, last(heads)), bodies)),
     pairs.length

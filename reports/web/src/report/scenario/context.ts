@@ -4,6 +4,7 @@
 // Input of the sections of a scenario's page, and the links that show a moment of it.
 import type { Cursor, Focus } from '../../common/cursor.ts';
 import { type Child, el } from '../../common/elements.ts';
+import { type ContactFinding, findingKey } from '../../common/finding.ts';
 import { format } from '../../common/format.ts';
 import { stepAt } from '../../common/steps.ts';
 import type { Case, Scenario, ScenarioData } from '../data.ts';
@@ -32,6 +33,7 @@ export function moment(
   bodies: string[],
   text: Child,
   contact: number | null = null,
+  finding: string | null = null,
 ): HTMLElement {
   const { scenario, dt, cursor } = context;
   const href = scenarioLink(scenario.name, {
@@ -41,17 +43,26 @@ export function moment(
     step: stepAt(time, dt),
     pair: bodies.join('|'),
     contact,
+    finding,
   });
   const show = (e: Event) => {
     e.preventDefault();
     history.replaceState(history.state, '', href);
-    showMoment(cursor, time, { spec, bodies, contact });
+    showMoment(cursor, time, { spec, bodies, contact, finding });
   };
   return el(
     'a',
     { href, class: 'moment', title: `Show t = ${format(time)} s in curves and replay`, onclick: show },
     text,
   );
+}
+
+/** The finding of a key in the audit of a run at the time step that is shown. */
+export function findingOf(cases: Case[], spec: string, key: string): ContactFinding | null {
+  const rows = cases.find((c) => c.spec === spec)?.audit ?? [];
+  for (const { auditor, findings = [] } of rows)
+    for (const found of findings) if (findingKey(auditor, found.what) === key) return found;
+  return null;
 }
 
 export function showMoment(cursor: Cursor, time: number, focus: Focus): void {

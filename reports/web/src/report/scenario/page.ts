@@ -80,10 +80,11 @@ export async function scenarioPage(name: string, query: URLSearchParams): Promis
   const nodes = sections.map((section) => section(context)).filter((node) => node !== null);
   const { spec } = context;
   const shown = () => {
+    if (query.has('view')) document.getElementById('replay')?.scrollIntoView();
     if (spec === null || !query.has('t')) return;
     const bodies = (query.get('pair') ?? '').split('|').filter(Boolean);
     const contact = query.has('contact') ? Number(query.get('contact')) : null;
-    showMoment(context.cursor, context.cursor.time.value, { spec, bodies, contact });
+    showMoment(context.cursor, context.cursor.time.value, { spec, bodies, contact, finding: query.get('finding') });
   };
   const left = () => {
     for (const leave of context.leaving) leave();

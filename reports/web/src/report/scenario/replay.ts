@@ -4,7 +4,7 @@ import { el } from '../../common/elements.ts';
 import { mountReplay, type ReplayHandle } from '../../replay/mount.ts';
 import { columnOf, engineColour, run } from '../run.ts';
 import { panel } from '../widgets.ts';
-import type { Context } from './context.ts';
+import { type Context, findingOf } from './context.ts';
 
 /** The replay of this time step; made when it comes into view or when a link names a moment. */
 export function replay(context: Context): HTMLElement | null {
@@ -23,6 +23,7 @@ export function replay(context: Context): HTMLElement | null {
       colourOf: (spec) => (spec === '' ? '#808890' : engineColour(columnOf(spec)?.engine ?? spec)),
       isPreferred: (spec) => columnOf(spec)?.preset === run.likeForLike,
       metrics: scenario.metrics,
+      findingOf: (spec, key) => findingOf(cases, spec, key),
     });
     const wanted = cursor.focus.value;
     if (wanted) handle.focus(wanted);
