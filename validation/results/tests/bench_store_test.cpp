@@ -170,6 +170,7 @@ TEST(BenchStore, ARunOfTheSchemaBeforeHasNone) {
         for (const char* column : {"first", "mean", "p95", "p99", "worst", "real_time_factor", "non_finite"})
             database.exec(std::string("ALTER TABLE timings DROP COLUMN ") + column);
         database.exec("ALTER TABLE cases DROP COLUMN refusal");
+        database.exec("ALTER TABLE audit DROP COLUMN findings");
         for (const char* column :
              {"grade", "graded_by", "relative_error", "ideal_error", "grade_note", "regression",
               "regression_reason", "insertion_orders", "insertion_orders_completed", "grade_best",

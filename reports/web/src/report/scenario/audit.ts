@@ -41,7 +41,8 @@ function worstCell(context: Context, c: Case, a: Audit): HTMLElement {
     place ? moment(context, c.spec, placeTime(place, context.dt), place.bodies, a.worst, place.contact) : a.worst;
   const found = a.findings ?? [];
   const links = found.map((f) => el('div', null, findingLink(context, c, a.auditor, f)));
-  return el('td', { class: 'small worst' }, links.length > 0 ? links : old());
+  const isNamed = found.some((f) => f.what === place?.what);
+  return el('td', { class: 'small worst' }, isNamed ? null : old(), links);
 }
 
 function auditorRow(context: Context, c: Case, a: Audit): HTMLElement {
