@@ -3,6 +3,7 @@
 //
 // Sentences of verdicts: each names the two things that were compared, and claims nothing else.
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "reports/encoding/text.hpp"
@@ -25,7 +26,9 @@ void append(std::string& line, const std::string& part, const char* gap = " · "
     if (!part.empty()) line += (line.empty() ? "" : gap) + part;
 }
 
+/// Angles are in degrees, as everywhere on the pages.
 std::string withUnit(double value, const std::string& unit) {
+    if (unit == "rad") return shortNumber(value * 180.0 / std::numbers::pi) + "°";
     return shortNumber(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 

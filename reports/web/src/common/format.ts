@@ -36,8 +36,8 @@ export function tick(value: number): string {
 export const full = (value: Maybe | undefined): string =>
   value === null || value === undefined ? 'no value' : String(value);
 
-/** A unit behind a number; nothing for the unit 1. */
-export const unitText = (unit: string): string => (unit && unit !== '1' ? `\u202f${unit}` : '');
+/** The unit shown behind a number; nothing for the unit 1. */
+export const unitText = (unit: string): string => (unit === 'rad' ? '°' : unit && unit !== '1' ? `\u202f${unit}` : '');
 
 /** Seconds with a fitting unit. */
 export function duration(seconds: Maybe | undefined): string {
@@ -56,6 +56,14 @@ export function timeStep(dt: Maybe): string {
   if (rate >= 2 && Math.abs(1 / step - rate) < 1e-9 * rate) return `1/${rate} s`;
   return `${format(step)} s`;
 }
+
+const degree = Math.PI / 180;
+
+/** The unit that a stored one is shown in: angles are in degrees on all pages. */
+export const shownUnit = (unit: string): string => (unit === 'rad' ? '°' : unit);
+/** A stored value in the unit that it is shown in. */
+export const inShownUnit = (value: Maybe | undefined, unit: string): Maybe =>
+  unit === 'rad' && typeof value === 'number' ? value / degree : (value ?? null);
 
 /** Radians in degrees. */
 export const angle = (radians: Maybe): string =>

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Targets of "first divergence", "largest error", "next contact" and "worst normal" among the sources that are shown.
+import { inShownUnit, unitText } from '../common/format.ts';
 import type { FrameSource, ReplayEvent } from './frames.ts';
 
 export interface Jump {
@@ -59,7 +60,7 @@ export function worstNormal(sources: readonly FrameSource[]): Jump | null {
     return (own ? 1e6 : 0) + (event.value ?? 0);
   };
   return all(sources, ['audit'])
-    .filter((j) => j.event.what !== 'oracle' && !j.event.what?.includes('|'))
+    .filter((j) => (j.event.unit ?? 'rad') === 'rad' && j.event.what !== 'oracle' && !j.event.what?.includes('|'))
     .reduce<Jump | null>((best, j) => (best === null || rank(j) > rank(best) ? j : best), null);
 }
 
@@ -80,11 +81,12 @@ const kindWords: Record<ReplayEvent['kind'], string> = {
 export function describe(event: ReplayEvent): string {
   const digits = (x: number) => String(Number(x.toPrecision(4)));
   let text = kindWords[event.kind];
-  if (event.what === 'in_run') text = 'worst contact geometry of its own run';
+  if (event.what === 'in_run')
+    text = event.unit === 'm' ? `worst ${event.text} of its own run` : 'worst contact geometry of its own run';
   else if (event.what) text += ` ${event.what}`;
   if (event.subject) text += `, ${event.subject.replace('|', ' and ')}`;
   if (event.value !== undefined)
-    text += `: ${digits(event.value)}${event.unit && event.unit !== '1' ? ` ${event.unit}` : ''}`;
+    text += `: ${digits(inShownUnit(event.value, event.unit ?? '') as number)}${unitText(event.unit ?? '').replace('\u202f', ' ')}`;
   if (event.threshold) text += ` (more than ${digits(event.threshold)} m)`;
   return text;
 }

@@ -3,7 +3,7 @@
 //
 // Curves of a scenario: positions of a body, and the series of errors, energies, depths, normals, of all engines and
 // the reference over each other.
-import { words } from '../common/format.ts';
+import { inShownUnit, shownUnit, words } from '../common/format.ts';
 import { spreadsByDecades, unpack, withGaps } from './charts/samples.ts';
 import type { Case } from './data.ts';
 
@@ -58,8 +58,9 @@ export function collectCurves(cases: Case[], observed: string[], body: string): 
       if (others.has(s.subject)) continue;
       const title =
         (s.name === 'normal_error' ? 'contact normal error' : words(s.name)) + (s.subject ? `: ${s.subject}` : '');
-      const curve = { spec: c.spec, x: s.t ? (unpack(s.t) ?? times) : times, y: withGaps(unpack(s.y) ?? []) };
-      add(`${s.name}/${s.subject}`, title, s.unit, curve);
+      const y = withGaps(unpack(s.y) ?? []).map((v) => inShownUnit(v, s.unit) as number | null);
+      const curve = { spec: c.spec, x: s.t ? (unpack(s.t) ?? times) : times, y };
+      add(`${s.name}/${s.subject}`, title, shownUnit(s.unit), curve);
     }
   }
   const moves = (plot: CurvePlot) => plot.curves.some((c) => c.y.some((y) => y !== null && Math.abs(y) > 1e-12));

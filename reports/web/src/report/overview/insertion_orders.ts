@@ -3,7 +3,7 @@
 //
 // Cases that were run in several orders of insertion: which results are the order's as much as the engine's.
 import { type Child, el } from '../../common/elements.ts';
-import { format, full, timeStep, toNumber, words } from '../../common/format.ts';
+import { format, full, shownUnit, timeStep, toNumber, words } from '../../common/format.ts';
 import type { OrderDependent } from '../data.ts';
 import { labelOf, run, scenarioLink } from '../run.ts';
 import { gradeChip, headRow, numberCell, panel, scroll } from '../widgets.ts';
@@ -30,7 +30,7 @@ function row(d: OrderDependent): HTMLElement {
     ),
     el('td', null, labelOf(d.spec)),
     el('td', { class: 'num' }, timeStep(d.dt)),
-    el('td', null, d.metric ? `${words(d.metric)}${d.unit && d.unit !== '1' ? ` [${d.unit}]` : ''}` : '—'),
+    el('td', null, d.metric ? `${words(d.metric)}${d.unit && d.unit !== '1' ? ` [${shownUnit(d.unit)}]` : ''}` : '—'),
     numberCell(d.metric ? d.value : null, d.unit),
     el(
       'td',

@@ -3,7 +3,7 @@
 //
 // One table, engines as columns, metrics as rows under a heading per kind; a number with a time is a link to it.
 import { type Child, el } from '../../common/elements.ts';
-import { format, full, toNumber, words } from '../../common/format.ts';
+import { format, full, inShownUnit, type Maybe, shownUnit, toNumber, words } from '../../common/format.ts';
 import type { Case, Column, Metric } from '../data.ts';
 import { caseOf, metricShown, run, verdictText } from '../run.ts';
 import { chip, panel, scroll, specHead, stickyHead } from '../widgets.ts';
@@ -35,19 +35,22 @@ function cell(context: Context, column: Column, name: string, subject: string): 
   if (!m) return el('td', { class: 'num muted' });
   const judged = m.bound !== null || m.verdict !== 'pass';
   const shown = metricShown(m.verdict);
+  const shownValue = (value: Maybe | undefined, digits = 4) => format(inShownUnit(value, m.unit), digits);
   const at = toNumber(m.at);
   const text: Child =
-    at >= 0 ? moment(context, column.spec, at, bodiesOf(m.subject), format(m.value)) : format(m.value);
+    at >= 0 ? moment(context, column.spec, at, bodiesOf(m.subject), shownValue(m.value)) : shownValue(m.value);
   const title = `${full(m.value)} ${m.unit}${at >= 0 ? ` at t = ${format(at)} s` : ''}${m.scale !== null ? `\nover its scale ${format(m.scale)} ${m.unit}: ${full(m.relative)}` : ''}${m.recorded !== null ? `\non record: ${full(m.recorded)}` : ''}${m.orderCount ? `\nover ${m.orderCount} orders of insertion: ${full(m.orderMin)} … ${full(m.orderMax)}` : ''}${m.note ? `\n${m.note}` : ''}`;
   const small = (line: string) => el('span', { class: 'bound' }, line);
   return el(
     'td',
     { class: 'num', title, 'data-value': full(m.value), 'data-spec': column.spec },
     judged ? chip(shown, text, verdictText(shown).word) : text,
-    m.bound !== null ? small(`≤ ${format(m.bound)}`) : null,
+    m.bound !== null ? small(`≤ ${shownValue(m.bound)}`) : null,
     m.grade && !m.subject ? small(`${m.grade} ${format(m.relative, 2)}`) : null,
     m.ideal !== null ? small(`scheme ${format(m.ideal, 2)}`) : null,
-    m.dependsOnOrder ? small(`${format(m.orderMin, 2)} … ${format(m.orderMax, 2)} over ${m.orderCount} orders`) : null,
+    m.dependsOnOrder
+      ? small(`${shownValue(m.orderMin, 2)} … ${shownValue(m.orderMax, 2)} over ${m.orderCount} orders`)
+      : null,
   );
 }
 
@@ -75,7 +78,7 @@ function table(context: Context, columns: Column[], whole: boolean): HTMLElement
         words(m.name),
         m.subject ? el('span', { class: 'muted' }, ` ${m.subject}`) : '',
       ),
-      el('td', { class: 'muted' }, m.unit === '1' ? '' : m.unit),
+      el('td', { class: 'muted' }, m.unit === '1' ? '' : shownUnit(m.unit)),
       columns.map((c) => cell(context, c, m.name, m.subject)),
     );
   const body = ({ rows, title, text }: (typeof parts)[number]) =>

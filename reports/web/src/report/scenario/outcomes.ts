@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { type Child, el } from '../../common/elements.ts';
-import { format, ratio, toNumber, unitText, words } from '../../common/format.ts';
+import { format, inShownUnit, ratio, toNumber, unitText, words } from '../../common/format.ts';
 import type { Case, Metric } from '../data.ts';
 import { labelOf, run } from '../run.ts';
 import { changeMark, chip, gradeChip, headRow, panel, scroll } from '../widgets.ts';
@@ -55,8 +55,8 @@ export function outcomes(context: Context): HTMLElement | null {
   const said = (c: Case, m: Metric): Child => {
     const at = toNumber(m.at);
     return [
-      `${words(m.name)}${m.subject ? ` of ${m.subject}` : ''} ${format(m.value)}${unitText(m.unit)}`,
-      m.bound === null ? '' : ` against a bound of ${format(m.bound)}`,
+      `${words(m.name)}${m.subject ? ` of ${m.subject}` : ''} ${format(inShownUnit(m.value, m.unit))}${unitText(m.unit)}`,
+      m.bound === null ? '' : ` against a bound of ${format(inShownUnit(m.bound, m.unit))}${unitText(m.unit)}`,
       at >= 0 ? [' (worst ', moment(context, c.spec, at, bodiesOf(m.subject), `at t = ${format(at)} s`), ')'] : null,
     ];
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { el } from '../../common/elements.ts';
-import { type Maybe, toNumber, words } from '../../common/format.ts';
+import { type Maybe, shownUnit, toNumber, words } from '../../common/format.ts';
 import { labelOf } from '../run.ts';
 import { headRow, numberCell, panel, scroll } from '../widgets.ts';
 import type { Context } from './context.ts';
@@ -15,7 +15,7 @@ export function quantities({ cases }: Context): HTMLElement | null {
   const group = (name: string) => {
     const rows = cases.flatMap((c) => c.quantities.filter((q) => q.name === name).map((q) => ({ spec: c.spec, q })));
     const unit = rows[0]?.q.unit ?? '';
-    const head = words(name) + (unit && unit !== '1' ? ` [${unit}]` : '');
+    const head = words(name) + (unit && unit !== '1' ? ` [${shownUnit(unit)}]` : '');
     const never = el('td', { class: 'num muted', title: 'did not happen in this run' }, 'never');
     return el(
       'tbody',
