@@ -101,13 +101,14 @@ bool spansDecades(const std::vector<StudyPoint>& points) {
     return greatest > 100.0 * least;
 }
 
-bool evenlyByFactor(const std::vector<StudyPoint>& points) {
+/// True for an axis over a factor of at least `factor`.
+bool spansFactor(const std::vector<StudyPoint>& points, double factor) {
     double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
     for (const auto& p : points) {
         least = std::min(least, *p.x);
         greatest = std::max(greatest, *p.x);
     }
-    return least > 0.0 && greatest >= 8.0 * least;
+    return least > 0.0 && greatest >= factor * least;
 }
 
 StudyChart chartOf(const Json& part, const Json& rows, const std::string& scenario,
@@ -134,7 +135,8 @@ StudyChart chartOf(const Json& part, const Json& rows, const std::string& scenar
     }
     chart.logarithmic = spansDecades(chart.points);
     if (!axis) return chart;
-    chart.logarithmicX = evenlyByFactor(chart.points);
+    // time steps are refined by factors, other parameters only if they go over a wide range
+    chart.logarithmicX = spansFactor(chart.points, axis->name == "dt" ? 1.5 : 8.0);
     std::vector<std::string> order;
     for (const auto& p : chart.points)
         if (std::find(order.begin(), order.end(), p.label) == order.end()) order.push_back(p.label);

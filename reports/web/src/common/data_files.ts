@@ -31,7 +31,18 @@ export async function loadJson<T>(name: string): Promise<T> {
   return JSON.parse(new TextDecoder().decode(await loadData(name))) as T;
 }
 
+/** The content of a data file as it is written: base64 of gzip. */
+export const loadText = (name: string): Promise<string> => fetchScript(name);
+
+/** Data that stands in the page itself: a page of one file has nothing beside it. */
+function embedded(name: string): string | null {
+  const text = document.getElementById(`data-${name}`)?.textContent;
+  return text ? (JSON.parse(text) as string) : null;
+}
+
 function fetchScript(name: string): Promise<string> {
+  const own = embedded(name);
+  if (own !== null) return Promise.resolve(own);
   return new Promise((resolve, reject) => {
     waiting.set(name, { resolve, reject });
     const script = document.createElement('script');

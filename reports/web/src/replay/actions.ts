@@ -10,6 +10,9 @@ import type { ReplayView } from './view.ts';
 
 export type JumpTarget = 'divergence' | 'largest' | 'next' | 'previous' | 'normal';
 
+/** Files of what is seen. */
+export type Saved = 'png' | 'webm' | 'csv';
+
 export interface ReplayActions {
   readonly view: ReplayView;
   readonly player: Player;
@@ -24,6 +27,7 @@ export interface ReplayActions {
   readonly measuring: boolean;
   toggleFollow(): void;
   toggleMeasure(): void;
+  save(what: Saved): Promise<void>;
   isShown(source: FrameSource): boolean;
   toggleEngine(source: FrameSource): void;
   loadAll(): Promise<void>;

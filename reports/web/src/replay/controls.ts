@@ -3,9 +3,10 @@
 //
 // Buttons under the picture: transport, jumps, engines, layers.
 import { el } from '../common/elements.ts';
-import type { ControlActions, ReplayActions } from './actions.ts';
+import type { ControlActions, ReplayActions, Saved } from './actions.ts';
 import { helpOverlay } from './keys.ts';
 import { type Colouring, colourings, type LayerName, layerNames } from './layers.ts';
+import { legendNodes } from './legend.ts';
 import { speeds } from './player.ts';
 import { Timeline } from './timeline.ts';
 
@@ -19,6 +20,12 @@ const hints: Partial<Record<LayerName, string>> = {
   names: 'Names of the bodies that move',
 };
 
+const saved: [what: Saved, text: string, title: string][] = [
+  ['png', '⤓ PNG', 'Save the picture'],
+  ['webm', '⤓ video', 'Save the run as a video (WebM), at the speed that is chosen'],
+  ['csv', '⤓ CSV', 'Save the states of all bodies of the engines that are shown'],
+];
+
 export class Controls implements ControlActions {
   readonly element: HTMLElement;
   readonly #stage: ReplayActions;
@@ -30,7 +37,9 @@ export class Controls implements ControlActions {
   readonly #layers = el('span', { class: 'chips', role: 'group', 'aria-label': 'Layers' });
   readonly #modes = el('span', { class: 'chips', role: 'group', 'aria-label': 'Arrangement' });
   readonly #said = el('p', { class: 'said', role: 'status' });
+  readonly #legend = el('p', { class: 'colour-legend', 'aria-label': 'Colours' });
   readonly #help = helpOverlay();
+  #entries = '';
 
   constructor(stage: ReplayActions) {
     this.#stage = stage;
@@ -76,6 +85,7 @@ export class Controls implements ControlActions {
     this.element = el(
       'div',
       { class: 'replay-controls' },
+      this.#legend,
       this.#timeline.element,
       transport,
       el('div', { class: 'switches' }, this.#engines, this.#modes),
@@ -95,7 +105,19 @@ export class Controls implements ControlActions {
 
   set time(seconds: number) {
     this.#timeline.time = seconds;
-    this.#clock.textContent = `${seconds.toFixed(4)} s`;
+    const { playing, rate } = this.#stage.player;
+    const real = Math.abs(rate - 1) < 0.07;
+    const text = `${seconds.toFixed(4)} s`;
+    this.#clock.textContent = playing && !real ? `${text}, ×${Number(rate.toPrecision(2))} real time` : text;
+  }
+
+  /** Shows what the colours mean, when that is something else than before. */
+  refreshLegend(): void {
+    const entries = this.#stage.view.legend;
+    const text = JSON.stringify(entries);
+    if (text === this.#entries) return;
+    this.#entries = text;
+    this.#legend.replaceChildren(...(legendNodes(entries) as Node[]));
   }
 
   /** Shows what is on. */
@@ -109,6 +131,7 @@ export class Controls implements ControlActions {
       this.#speed.append(el('option', { value: speed }, `${speed} ×`));
     this.#speed.value = speed;
     this.#timeline.show(stage.shown, stage.player.end);
+    this.time = stage.time;
     this.#refreshEngines();
     this.#refreshLayers();
     this.#refreshModes();
@@ -209,6 +232,17 @@ export class Controls implements ControlActions {
         'measure',
       ),
       ...(stage.canLoadMore ? [more] : []),
+      el(
+        'span',
+        { class: 'chips', role: 'group', 'aria-label': 'Save' },
+        saved.map(([what, text, title]) =>
+          el(
+            'button',
+            { type: 'button', title, 'data-action': `save-${what}`, onclick: () => void stage.save(what) },
+            text,
+          ),
+        ),
+      ),
     );
   }
 

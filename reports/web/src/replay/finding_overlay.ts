@@ -19,6 +19,14 @@ export interface Note {
 const arcSteps = 24;
 const noticeable = 1e-4; // [rad] smaller angles are a line
 
+/** Length with a fitting unit, four digits. */
+export function lengthText(metres: number): string {
+  const size = Math.abs(metres);
+  const digits = (x: number) => String(Number(x.toPrecision(4)));
+  if (size > 0 && size < 1e-4) return `${digits(1e6 * metres)} µm`;
+  return size < 0.1 ? `${digits(1e3 * metres)} mm` : `${digits(metres)} m`;
+}
+
 const along = (at: Vec3, d: Vec3, length: number): Vec3 => [
   at[0] + d[0] * length,
   at[1] + d[1] * length,
@@ -38,8 +46,11 @@ export function arc(at: Vec3, from: Vec3, to: Vec3, radius: number, steps = arcS
   });
 }
 
-/** Angle in degrees, three digits. */
-export const degrees = (radians: number): string => `${Number(((180 / Math.PI) * radians).toPrecision(3))}°`;
+const exactLength = 0.8; // of the exact normal, so that both heads are seen where the normals agree
+
+/** Angle in degrees, three digits; what is smaller than rounding is none. */
+export const degrees = (radians: number): string =>
+  radians < 1e-9 ? '0°' : `${Number(((180 / Math.PI) * radians).toPrecision(3))}°`;
 
 /** Texts of a finding whose arrows are `length` long [m]. */
 export function findingNotes(finding: ContactFinding, length: number): Note[] {
@@ -49,9 +60,13 @@ export function findingNotes(finding: ContactFinding, length: number): Note[] {
   const exact = nearestExact(finding);
   const notes: Note[] = [];
   if (said) notes.push({ at: along(at, said.normal, length), text: 'engine', kind: 'engine' });
-  if (exact) notes.push({ at: along(at, exact, length), text: 'exact', kind: 'exact' });
+  if (exact) notes.push({ at: along(at, exact, exactLength * length), text: 'exact', kind: 'exact' });
   if (!said) notes.push({ at, text: 'no contact of the engine', kind: 'engine' });
-  if (said && exact) {
+  if (said && exact && finding.what === 'depth') {
+    const apart = -(finding.exact?.distance ?? Number.NaN);
+    const text = `depth ${lengthText(said.depth)}, exact ${lengthText(apart)}`;
+    notes.push({ at: along(at, exact, -0.25 * length), text, kind: 'measure' });
+  } else if (said && exact) {
     const bow = arc(at, said.normal, exact, 0.62 * length);
     const middle = bow[bow.length >> 1] ?? along(at, exact, 0.62 * length);
     notes.push({ at: middle, text: degrees(angleBetween(said.normal, exact)), kind: 'angle' });
@@ -92,14 +107,14 @@ export class FindingOverlay {
   #drawAt(finding: ContactFinding, at: Vec3, theme: Theme, length: number): void {
     const { said, exact } = finding;
     const nearest = nearestExact(finding);
-    const arrow = (batch: FatLines, d: Vec3, colour: string) =>
-      batch.arrow(...at, d[0] * length, d[1] * length, d[2] * length, 0.16 * length, this.#c.set(colour));
+    const arrow = (batch: FatLines, d: Vec3, colour: string, long = length) =>
+      batch.arrow(...at, d[0] * long, d[1] * long, d[2] * long, 0.14 * length, this.#c.set(colour));
     if (said) {
       arrow(this.#lines, said.normal, theme.normal);
       this.#witness(said.pointA, said.pointB, theme.normal);
     }
-    if (nearest) arrow(this.#lines, nearest, theme.exact);
-    for (const n of exact?.normals ?? []) if (n !== nearest) arrow(this.#faint, n, theme.exact);
+    if (nearest) arrow(this.#lines, nearest, theme.exact, exactLength * length);
+    for (const n of exact?.normals ?? []) if (n !== nearest) arrow(this.#faint, n, theme.exact, exactLength * length);
     if (exact) this.#witness(exact.pointA, exact.pointB, theme.exact);
     if (!said || !nearest) return;
     this.#c.set(theme.angle);

@@ -116,16 +116,17 @@ export class Inspector {
       return;
     }
     const { source, frame } = what;
-    const own = finding ? el('dl', {}, findingRows(finding)) : null;
+    const time = row('time', text(frame.time), `s, step ${frame.step}`, 'time');
+    const rows = what.contact >= 0 ? contactRows(this.#scene, what) : bodyRows(this.#scene, what);
+    const numbers = finding
+      ? [
+          el('dl', {}, time, findingRows(finding)),
+          el('details', {}, el('summary', {}, 'contact as stored'), el('dl', {}, rows)),
+        ]
+      : [el('dl', {}, time, rows)];
     this.element.replaceChildren(
       el('div', { class: 'who' }, el('i', { style: `background:${source.colour}` }), source.label),
-      ...(own ? [own] : []),
-      el(
-        'dl',
-        {},
-        row('time', text(frame.time), `s, step ${frame.step}`, 'time'),
-        what.contact >= 0 ? contactRows(this.#scene, what) : bodyRows(this.#scene, what),
-      ),
+      ...numbers,
     );
   }
 }

@@ -4,7 +4,7 @@
 // Distances and angles between points that were clicked. A point stays with its body, so that its distance can be
 // followed over time: two points give a distance, three an angle at the second one.
 import { angleBetween } from '../common/finding.ts';
-import { degrees, type Note } from './finding_overlay.ts';
+import { degrees, lengthText, type Note } from './finding_overlay.ts';
 import type { Frame, FrameSource } from './frames.ts';
 import { add, conjugate, type Quat, rotate, sub, type Vec3 } from './vectors.ts';
 
@@ -20,14 +20,6 @@ const poseOf = (frame: Frame, body: number): { p: Vec3; q: Quat } => ({
   p: [0, 1, 2].map((k) => frame.position[3 * body + k] as number) as Vec3,
   q: [0, 1, 2, 3].map((k) => frame.orientation[4 * body + k] as number) as Quat,
 });
-
-/** Length with a fitting unit, four digits. */
-export function lengthText(metres: number): string {
-  const size = Math.abs(metres);
-  const digits = (x: number) => String(Number(x.toPrecision(4)));
-  if (size > 0 && size < 1e-3) return `${digits(1e6 * metres)} µm`;
-  return size < 0.1 ? `${digits(1e3 * metres)} mm` : `${digits(metres)} m`;
-}
 
 export class Measure {
   #marks: Mark[] = [];

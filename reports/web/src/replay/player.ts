@@ -4,6 +4,8 @@
 // The clock of a replay: moves a shared time while it plays.
 import type { Observable } from '../common/cursor.ts';
 
+const measured = 0.5; // [s] between two measurements of the rate
+
 export const speeds = [0.01, 0.03, 0.1, 0.25, 0.5, 1, 2, 4];
 
 export class Player {
@@ -12,6 +14,9 @@ export class Player {
   #speed = 1;
   #requested = 0;
   #last = 0;
+  #rate = 1;
+  #really = 0; // [s] since the rate was measured
+  #simulated = 0;
   /** Last time there is [s]. */
   end = 0;
 
@@ -19,6 +24,20 @@ export class Player {
   constructor(time: Observable<number>, changed: () => void) {
     this.#time = time;
     this.#changed = changed;
+  }
+
+  /** Simulated time over that of the clock while it plays: over the last second; 1 is real time. */
+  get rate(): number {
+    return this.#rate;
+  }
+
+  #measure(really: number, simulated: number): void {
+    this.#really += really;
+    this.#simulated += simulated;
+    if (this.#really < measured) return;
+    this.#rate = this.#simulated / this.#really;
+    this.#really = 0;
+    this.#simulated = 0;
   }
 
   get playing(): boolean {
@@ -29,6 +48,7 @@ export class Player {
   }
   set speed(value: number) {
     this.#speed = value;
+    this.#rate = value;
     this.#changed();
   }
 
@@ -43,6 +63,9 @@ export class Player {
     if (this.playing) return;
     if (this.#time.value >= this.end - 1e-9) this.#time.set(0, this);
     this.#last = performance.now();
+    this.#rate = this.#speed;
+    this.#really = 0;
+    this.#simulated = 0;
     this.#requested = requestAnimationFrame(this.#tick);
     this.#changed();
   }
@@ -61,9 +84,11 @@ export class Player {
 
   readonly #tick = (now: number) => {
     // a page that was hidden does not leap
-    const passed = Math.min(0.1, Math.max(0, (now - this.#last) / 1e3));
+    const really = Math.max(0, (now - this.#last) / 1e3);
+    const passed = Math.min(0.1, really);
     this.#last = now;
     const time = Math.min(this.end, this.#time.value + passed * this.#speed);
+    this.#measure(really, time - this.#time.value);
     this.#requested = requestAnimationFrame(this.#tick);
     this.#time.set(time, this);
     if (time >= this.end) this.pause();

@@ -31,8 +31,11 @@ export interface Sized {
   scale: Vec3;
 }
 
-/** Segments of a circle: fewer where there are many bodies, which are small then. */
-export const roundOf = (bodies: number): number => (bodies > 800 ? 14 : bodies > 150 ? 24 : 40);
+/** Segments of a circle: fewer where there are many bodies, which are small then, and fewer still in software. */
+export function roundOf(bodies: number, software = false): number {
+  if (software) return bodies > 20 ? 14 : 24;
+  return bodies > 800 ? 14 : bodies > 150 ? 24 : 40;
+}
 
 function lines(points: number[]): BufferGeometry {
   return new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
@@ -198,8 +201,8 @@ export class TemplateCache {
   readonly #made = new Map<string, Template>();
   readonly #round: number;
 
-  constructor(bodies = 1) {
-    this.#round = roundOf(bodies);
+  constructor(bodies = 1, software = false) {
+    this.#round = roundOf(bodies, software);
   }
 
   /** null for half-spaces. */

@@ -19,7 +19,6 @@ import type { TemplateCache } from './shape_meshes.ts';
 export interface Drawn {
   bodies: BodyLayer['drawn'];
   arrows: Overlays['arrows'];
-  finding: FindingOverlay['arrows']; // the engine's normal and the exact one
 }
 
 export class SourceLayer {
@@ -81,14 +80,19 @@ export class SourceLayer {
 
   /** Content of the picture as numbers, read from the buffers that are drawn. */
   get drawn(): Drawn {
-    return { bodies: this.bodies.drawn, arrows: this.#overlays.arrows, finding: this.#findings.arrows };
+    return { bodies: this.bodies.drawn, arrows: [...this.#overlays.arrows, ...this.#findings.arrows] };
   }
 
   build(framing: Framing, theme: Theme, pixelRatio: number): void {
     this.#ground.build(framing.center, framing.radius, theme);
-    this.#findings.pixels = 11 * pixelRatio;
-    this.#overlays.pixels = (this.#scene.bodies.length > 60 ? 5 : 8) * pixelRatio;
+    this.pixelRatio = pixelRatio;
     this.#sky.intensity = theme.dark ? 1.0 : 1.35;
+  }
+
+  /** Pixels of the canvas in one of the page: dots keep their size. */
+  set pixelRatio(ratio: number) {
+    this.#findings.pixels = 11 * ratio;
+    this.#overlays.pixels = (this.#scene.bodies.length > 60 ? 5 : 8) * ratio;
   }
 
   /** The frame at a time; true when that is another one than before. */
@@ -130,8 +134,10 @@ export class SourceLayer {
       },
       this.#c,
     );
-    this.#overlays.draw(this.source, this.#frame, this.bodies, options, theme, scales, this.#colours);
     const found = this.#finding?.finding.step === this.#frame.step ? this.#finding : null;
+    // other contacts would hide the one that is shown
+    const layers = found ? { ...options.layers, contacts: false, normals: false } : options.layers;
+    this.#overlays.draw(this.source, this.#frame, this.bodies, { ...options, layers }, theme, scales, this.#colours);
     this.#findings.draw(found?.finding ?? null, theme, found?.length ?? 0);
   }
 

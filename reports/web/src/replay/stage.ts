@@ -4,11 +4,13 @@
 // Picture, controls and keys of a replay, bound together.
 
 import type { Focus } from '../common/cursor.ts';
+import { download, pngOf, saveText } from '../common/download.ts';
 import { el } from '../common/elements.ts';
 import { findingKey } from '../common/finding.ts';
 import { stepAt } from '../common/steps.ts';
-import type { JumpTarget, ReplayActions } from './actions.ts';
+import type { JumpTarget, ReplayActions, Saved } from './actions.ts';
 import { bodyNames } from './body_names.ts';
+import { composed, recordVideo, statesCsv } from './capture.ts';
 import type { ReplayContext } from './context.ts';
 import { Controls } from './controls.ts';
 import { followPointer, followTheme, type PointerActions } from './follow.ts';
@@ -218,6 +220,37 @@ export class ReplayStage implements ReplayActions {
     this.view.invalidate();
   }
 
+  /** Saves what is seen: the picture, the run as a video at the speed that is chosen, or the states of the bodies. */
+  async save(what: Saved): Promise<void> {
+    const name = `${this.#context.name ?? 'replay'}-${this.shown.map((s) => s.label.replaceAll(' ', '-')).join('-')}`;
+    const canvas = document.createElement('canvas');
+    const picture = () => composed(this.view, this.#allNotes(), canvas);
+    try {
+      if (what === 'csv') saveText(`${name}.csv`, statesCsv(this.shown, this.#scene), 'text/csv');
+      if (what === 'png') {
+        this.view.drawFine();
+        download(`${name}.png`, await pngOf(picture()));
+      }
+      if (what === 'webm') await this.#saveVideo(`${name}.webm`, picture);
+    } catch (error) {
+      this.controls.say(error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  async #saveVideo(name: string, picture: () => HTMLCanvasElement): Promise<void> {
+    this.player.pause();
+    const before = this.time;
+    const show = (time: number) => {
+      this.setTime(time);
+      this.view.draw();
+      return picture();
+    };
+    const progress = (done: number) => this.controls.say(`Recording: ${Math.round(100 * done)} %`);
+    download(name, await recordVideo(this.player.end, this.player.speed, { show, progress }));
+    this.controls.say('');
+    this.setTime(before);
+  }
+
   setOptions(change: Parameters<ReplayView['setOptions']>[0]): void {
     this.view.setOptions(change);
     this.controls.refresh();
@@ -256,6 +289,7 @@ export class ReplayStage implements ReplayActions {
     );
     this.view.onCamera = () => this.#remember();
     this.view.onDraw = () => {
+      this.controls?.refreshLegend();
       this.#labels.place(this.view);
       this.#notes.place(this.view, this.#allNotes());
       this.#inspect();

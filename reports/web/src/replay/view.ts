@@ -15,11 +15,13 @@ import { findingNotes, type Note } from './finding_overlay.ts';
 import type { Frame, FrameSource } from './frames.ts';
 import { arrowScales, bodyReach, frameScene } from './framing.ts';
 import { defaultOptions, type ViewOptions } from './layers.ts';
+import { legendOf } from './legend.ts';
 import { occludingBodies } from './occluder_fade.ts';
 import type { ArrowScales } from './overlays.ts';
 import { nearestContact, type Rect, rectAt, tile, toDevice } from './picking.ts';
 import type { Scene } from './scene.ts';
 import { TemplateCache } from './shape_meshes.ts';
+import { drawsInSoftware } from './software.ts';
 import { type Drawn, SourceLayer } from './source_layer.ts';
 import { add, type Vec3 } from './vectors.ts';
 
@@ -31,11 +33,14 @@ export class NoWebGL extends Error {}
 /** Renderers of views that are gone. A browser gives few contexts and takes long to let one go: they are used again. */
 const idle: WebGLRenderer[] = [];
 
+const stillAfter = 1200; // [ms] since the last drawing
+const pixelRatio = () => (drawsInSoftware() ? 1 : Math.min(2, devicePixelRatio));
+
 function takeRenderer(): WebGLRenderer {
   const known = idle.pop();
   if (known) return known;
   try {
-    const made = new WebGLRenderer({ antialias: true, powerPreference: 'high-performance' });
+    const made = new WebGLRenderer({ antialias: !drawsInSoftware(), powerPreference: 'high-performance' });
     made.autoClear = false;
     made.info.autoReset = false;
     return made;
@@ -106,12 +111,13 @@ export class ReplayView {
   #finding: ShownFinding | null = null;
   #stale = true; // colours and overlays
   #requested = 0;
+  #finer: ReturnType<typeof setTimeout> | undefined;
   #width = 1;
   #height = 1;
 
   constructor(element: HTMLElement, scene: Scene) {
     this.#scene = scene;
-    this.#templates = new TemplateCache(scene.bodies.length);
+    this.#templates = new TemplateCache(scene.bodies.length, drawsInSoftware());
     this.#renderer = takeRenderer();
     this.canvas = this.#renderer.domElement;
     this.canvas.tabIndex = 0;
@@ -213,6 +219,17 @@ export class ReplayView {
 
   get panels(): Panel[] {
     return this.#pictures.map((picture) => picture.panel);
+  }
+
+  /** What the colours mean that are on the picture. */
+  get legend(): ReturnType<typeof legendOf> {
+    const shown = this.#sources.filter((s) => !s.ghost);
+    return legendOf(this.options, this.#theme, this.#scales, {
+      finding: this.findingNotes !== null,
+      contacts: shown.some((s) => s.events.some((e) => e.kind === 'contact_begin' || e.kind === 'audit')),
+      joints: this.#scene.joints.length > 0,
+      reference: this.#sources.some((s) => s.ghost),
+    });
   }
 
   /** Frame that a source shows; null while it has none. */
@@ -332,6 +349,7 @@ export class ReplayView {
 
   dispose(): void {
     cancelAnimationFrame(this.#requested);
+    clearTimeout(this.#finer);
     this.#resize.disconnect();
     this.#rig.dispose();
     this.#dropPictures();
@@ -350,6 +368,25 @@ export class ReplayView {
 
   /** Draws now. */
   draw(): void {
+    this.#useRatio(pixelRatio());
+    this.#drawNow();
+    clearTimeout(this.#finer);
+    if (drawsInSoftware()) this.#finer = setTimeout(() => this.drawFine(), stillAfter);
+  }
+
+  /** Draws once with smooth edges, which takes long in software. */
+  drawFine(): void {
+    this.#useRatio(2);
+    this.#drawNow();
+  }
+
+  #useRatio(ratio: number): void {
+    if (this.#renderer.getPixelRatio() === ratio) return;
+    this.#renderer.setPixelRatio(ratio);
+    for (const { layers } of this.#pictures) for (const layer of layers) layer.pixelRatio = ratio;
+  }
+
+  #drawNow(): void {
     cancelAnimationFrame(this.#requested);
     this.#requested = 0;
     const start = performance.now();
@@ -360,6 +397,7 @@ export class ReplayView {
     this.#renderer.clear();
     this.#renderer.setClearColor(this.#clear.set(this.#theme.background), 1);
     this.#renderer.setScissorTest(true);
+    const alone = this.findingNotes !== null; // nothing else stands at the place of a finding
     for (const { panel, layers } of this.#pictures) {
       this.#rig.shape(panel.rect);
       const { x, y, width, height } = panel.rect;
@@ -367,6 +405,7 @@ export class ReplayView {
       this.#renderer.setScissor(x, this.#height - y - height, width, height);
       this.#renderer.clear();
       for (const layer of layers) {
+        if (layer.source.ghost && alone) continue;
         const before = performance.now();
         if (layer.seek(this.#time) || this.#stale) layer.paint(this.options, this.#theme, this.#scales, this.#marked);
         own += performance.now() - before;
@@ -391,7 +430,7 @@ export class ReplayView {
   #measure(element: HTMLElement): void {
     this.#width = Math.max(1, element.clientWidth);
     this.#height = Math.max(1, element.clientHeight);
-    this.#renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.#renderer.setPixelRatio(pixelRatio());
     this.#renderer.setSize(this.#width, this.#height);
     this.#layout();
     this.draw();

@@ -277,6 +277,7 @@ export interface GatheredLedger extends LedgerLine {
 
 /** Content of run-data: the overview. */
 export interface Run {
+  single?: string; // a page of this scenario alone, in one file
   suite: string;
   title: string; // the suite, or the first of the scenarios named
   command: string;

@@ -15,12 +15,13 @@ import { drawAllPlots, dropPlots } from './charts/live_plots.ts';
 import { enginePage } from './engine/page.ts';
 import { filtersOf } from './overview/filters.ts';
 import { tabOf, tabs } from './overview/page.ts';
-import { run } from './run.ts';
+import { run, scenarioLink } from './run.ts';
 import { scenarioPage } from './scenario/page.ts';
 import { searchField } from './search.ts';
 import { themeButton } from './theme.ts';
 
 const page = document.getElementById('page') as HTMLElement;
+const home = run.single ? scenarioLink(run.single) : '';
 let shown = ''; // the tab or the route without its query: what is on the page
 let leave = () => {}; // function that is called at the end of the page
 let visit = 0; // a page that loads slowly is dropped when another one was opened
@@ -35,7 +36,7 @@ interface Page {
 
 /** Parts of an address: the page, the place on it, and what follows. */
 function partsOf(hash: string): { path: string; anchor: string; query: URLSearchParams } {
-  const [path = '', query = ''] = hash.split('?');
+  const [path = '', query = ''] = (hash || home).split('?');
   if (path.startsWith('#/')) return { path, anchor: '', query: new URLSearchParams(query) };
   const anchor = path.slice(1);
   return { path: `#${tabOf(anchor).id}`, anchor, query: new URLSearchParams(query) };
@@ -92,7 +93,7 @@ function markTab(path: string): void {
 
 function bars(): void {
   const links = tabs.map(({ id, title }) => el('a', { href: `#${id}` }, title));
-  const brand = el('a', { class: 'brand', href: '#' }, 'Rigor');
+  const brand = el('a', { class: 'brand', href: home || '#' }, 'Rigor');
   const bar = el(
     'div',
     { class: 'bar' },

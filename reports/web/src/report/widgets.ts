@@ -3,7 +3,7 @@
 //
 // Elements of the sections: panels, chips, number cells, heads of tables with a column per engine.
 import { type Attributes, type Child, el } from '../common/elements.ts';
-import { duration, format, full, type Maybe, timeStep } from '../common/format.ts';
+import { duration, format, full, inShownUnit, type Maybe, timeStep } from '../common/format.ts';
 import type { Column, Regression, Shown } from './data.ts';
 import { meaningOf } from './glossary_terms.ts';
 import { dimensionNote, engineLink, subtitleOf, verdictText } from './run.ts';
@@ -44,7 +44,7 @@ export function gradeBar(grades: number[]): HTMLElement {
 
 /** A number in a table: short to read, all digits on hover and in `data-value`. */
 export const numberCell = (value: Maybe, unit = '', attributes: Attributes = {}): HTMLElement =>
-  el('td', { class: 'num', title: `${full(value)} ${unit}`.trim(), ...attributes }, format(value));
+  el('td', { class: 'num', title: `${full(value)} ${unit}`.trim(), ...attributes }, format(inShownUnit(value, unit)));
 export const durationCell = (seconds: Maybe): HTMLElement =>
   el('td', { class: 'num', title: `${full(seconds)} s` }, duration(seconds));
 export const stepCell = (dt: Maybe): HTMLElement => el('td', { class: 'num' }, timeStep(dt));

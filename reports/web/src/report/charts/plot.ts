@@ -5,41 +5,12 @@
 // pointer reads values out. Over time, a click sets the shared time and a bar follows it.
 import 'uplot/dist/uPlot.min.css';
 import uPlot from 'uplot';
-import type { Cursor } from '../../common/cursor.ts';
-import { type Child, cssValue, el } from '../../common/elements.ts';
+import { cssValue, el } from '../../common/elements.ts';
 import { format, tick, unitText } from '../../common/format.ts';
+import { savePlot } from './export.ts';
+import type { Line, Plot } from './line.ts';
 import { addPlot } from './live_plots.ts';
 import { bandOf, logTicks, nearest, widened } from './samples.ts';
-
-export interface Line {
-  key: string; // spec; "" is always shown
-  label: string;
-  colour: string; // CSS, or the name of a CSS variable
-  dash: number[];
-  width: number;
-  points?: boolean; // marks at the samples
-  bare?: boolean; // marks alone
-  x: ArrayLike<number>; // ascending
-  y: (number | null)[];
-  low?: (number | null)[]; // bound of an interval around y
-  high?: (number | null)[];
-  notes?: string[]; // said of each sample when it is read out
-}
-
-export interface Plot {
-  title: Child;
-  name: string; // name for screen readers and tests
-  unit: string;
-  xTitle: string;
-  xUnit: string;
-  lines: Line[];
-  logX?: boolean;
-  logY?: boolean;
-  tall?: boolean;
-  zeroY?: boolean; // the axis includes zero
-  cursor?: Cursor; // cursor of a plot over time
-  focus?: string | null; // spec of the line that stands out
-}
 
 const colourOf = (line: Line) => (line.colour.startsWith('--') ? cssValue(line.colour) : line.colour);
 
@@ -79,9 +50,26 @@ export function plotCard(plot: Plot): HTMLElement {
     },
     'log',
   );
+  const save = (e: Event) => {
+    const menu = e.target as HTMLSelectElement;
+    const kind = menu.value as 'csv' | 'svg' | 'png';
+    menu.value = '';
+    make();
+    if (drawn) void savePlot(kind, plot, drawn, log, colourOf);
+  };
+  const menu = el(
+    'select',
+    { class: 'save noprint', 'aria-label': `Save ${plot.name}`, title: 'Save this plot', onchange: save },
+    ['⤓', 'CSV', 'SVG', 'PNG'].map((text, i) => el('option', { value: i === 0 ? '' : text.toLowerCase() }, text)),
+  );
   const unit = plot.unit && plot.unit !== '1' ? el('span', { class: 'muted' }, ` [${plot.unit}]`) : null;
   const mayBeLog = plot.lines.every((line) => line.y.every((y) => y === null || y >= 0));
-  const head = el('h3', null, el('span', null, plot.title, unit), mayBeLog ? button : null);
+  const head = el(
+    'h3',
+    null,
+    el('span', null, plot.title, unit),
+    el('span', { class: 'tools' }, mayBeLog ? button : null, menu),
+  );
   const attributes = { class: 'chart', 'data-plot': plot.name, role: 'group', 'aria-label': plot.name };
   return addPlot({ node: el('div', attributes, head, box), make, drop });
 }
@@ -107,7 +95,7 @@ function optionsOf(plot: Plot, log: boolean, box: HTMLElement): uPlot.Options {
   const series = plot.lines.map(
     (line): uPlot.Series => ({
       label: line.label,
-      stroke: line.bare ? 'transparent' : colourOf(line),
+      stroke: line.bare || line.joined ? 'transparent' : colourOf(line),
       width: line.key !== '' && line.key === plot.focus ? line.width + 1.5 : line.width,
       dash: line.dash,
       show: shown(line),
@@ -145,10 +133,37 @@ function optionsOf(plot: Plot, log: boolean, box: HTMLElement): uPlot.Options {
       ...(plot.cursor ? { sync: { key: 'time', setSeries: false, scales: ['x', null] } } : {}),
     },
     hooks: {
-      draw: [(u) => drawIntervals(u, plot)],
+      draw: [(u) => drawJoined(u, plot), (u) => drawIntervals(u, plot)],
       setSeries: [],
     },
   };
+}
+
+/** Lines through samples in an order of their own. */
+function drawJoined(u: uPlot, plot: Plot): void {
+  const { ctx } = u;
+  plot.lines.forEach((line, i) => {
+    if (!line.joined || !u.series[i + 1]?.show) return;
+    ctx.save();
+    ctx.strokeStyle = colourOf(line);
+    ctx.lineWidth = line.width * uPlot.pxRatio;
+    ctx.setLineDash(line.dash.map((d) => d * uPlot.pxRatio));
+    ctx.beginPath();
+    let begun = false;
+    line.joined.x.forEach((x, k) => {
+      const y = line.joined?.y[k] ?? null;
+      if (y === null || (plot.logX && !(x > 0)) || (u.scales.y?.distr === 3 && !(y > 0))) {
+        begun = false;
+        return;
+      }
+      const at = [u.valToPos(x, 'x', true), u.valToPos(y, 'y', true)] as const;
+      if (begun) ctx.lineTo(...at);
+      else ctx.moveTo(...at);
+      begun = true;
+    });
+    ctx.stroke();
+    ctx.restore();
+  });
 }
 
 /** Bars from the low to the high end of the samples that have both. */

@@ -85,7 +85,7 @@ const all: Tab[] = [
 ];
 
 /** Tabs that this run has something for, with their sections. */
-export const tabs: Tab[] = all
+export const tabs: Tab[] = (run.single ? all.filter((tab) => tab.id === 'method' || tab.id === 'glossary') : all)
   .map((tab) => ({ ...tab, sections: tab.sections.filter((s) => s.has?.() !== false) }))
   .filter((tab) => tab.sections.length > 0);
 

@@ -3,9 +3,21 @@
 //
 // Scenario x engine: grade, change against the record, relative error and cost of a step in one cell; filters and order.
 import { type Child, el } from '../../common/elements.ts';
-import { counted, duration, format, full, ratio, timeStep, toNumber, words } from '../../common/format.ts';
+import {
+  counted,
+  duration,
+  format,
+  inShownUnit,
+  ratio,
+  shownUnit,
+  timeStep,
+  toNumber,
+  unitText,
+  words,
+} from '../../common/format.ts';
 import { type Cell, cellOf, costOf, errorOf, gradeOf, isLost, logPlace, relativeOf } from '../cells.ts';
 import type { Column, Scenario, Shown } from '../data.ts';
+import { decidingText, mainText } from '../deciding.ts';
 import { dimensionNote, dimensionsOf, isFirstOfEngine, run, scenarioLink, subtitleOf, verdictText } from '../run.ts';
 import { changeMark, chip, gradeBar, gradeChip, panel, select, specHead } from '../widgets.ts';
 import {
@@ -46,8 +58,9 @@ function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): str
       ratio(at.judged.toOurs) ? `${ratio(at.judged.toOurs)} ours` : '',
     ].filter(Boolean);
     const beside = times.length ? ` (${times.join(', ')})` : '';
-    const unit = s.main.unit === '1' ? '' : ` ${s.main.unit}`;
-    lines.push(`${words(s.main.name)} ${full(at.value)}${unit} at ${timeStep(at.dt)}${beside}`);
+    lines.push(
+      `${words(s.main.name)} ${format(inShownUnit(at.value, s.main.unit), 6)}${unitText(s.main.unit)} at ${timeStep(at.dt)}${beside}`,
+    );
     if (at.range) lines.push(`${words(s.main.name)} ${at.range}`);
   }
   const cost = costOf(cell);
@@ -75,7 +88,7 @@ function said(s: Scenario, column: Column, cell: Cell, number: Filters['number']
   if (number === 'relative' && !Number.isNaN(relativeOf(cell))) return format(relativeOf(cell), digits);
   if (number === 'best') return ratio(cell.at.judged.toBest) || '—';
   if (number === 'ours') return ratio(cell.at.judged.toOurs) || '—';
-  return cell.at.value === null ? verdictText(shown).word : format(cell.at.value, digits);
+  return cell.at.value === null ? verdictText(shown).word : format(inShownUnit(cell.at.value, s.main.unit), digits);
 }
 
 /** ⇅ where the orders of any time step disagree about the verdict, else what the time step shown has. */
@@ -117,31 +130,6 @@ function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters, digi
     meter('error', logPlace(relativeOf(cell), 1e-6, 1)),
     meter('cost', logPlace(costOf(cell), scale.leastCost, 1000 * scale.leastCost)),
   );
-}
-
-const mostQuantities = 2; // named in a row
-
-/** "stop time, stop distance": what a metric is largest for in the cases of a scenario. */
-function quantitiesText(subjects: (string | undefined)[]): string {
-  const named = [...new Set(subjects.filter((x): x is string => Boolean(x)))];
-  const text = named.slice(0, mostQuantities).map(words).join(', ');
-  return named.length > mostQuantities ? `${text}, …` : text;
-}
-
-/** The main metric; of an error of named quantities, which ones. */
-function mainText(s: Scenario): string {
-  const which = s.main.name.endsWith('quantity_error') ? quantitiesText(s.cases.map((c) => c.subject)) : '';
-  return which ? `error of ${which}` : words(s.main.name);
-}
-
-/** "relative error: stop time": the metrics that decide the grades of a row. */
-function decidingText(s: Scenario): string {
-  const by = [...new Set(s.cases.map((c) => c.judged.by).filter(Boolean))];
-  const parts = by.slice(0, mostQuantities).map((name) => {
-    const own = s.cases.filter((c) => c.judged.by === name).map((c) => c.judged.of);
-    return (name.endsWith('quantity_error') && quantitiesText(own)) || words(name);
-  });
-  return `relative error: ${parts.join('; ')}${by.length > mostQuantities ? '; …' : ''}`;
 }
 
 /** Grades of a column over the scenarios that are shown, and how many runs were lost. */
@@ -193,7 +181,7 @@ function row(s: Scenario, columns: Column[], f: Filters): HTMLElement {
           : f.number === 'cost'
             ? 'time of a step'
             : s.main.name
-              ? `${isGraded ? '' : 'not graded: '}${mainText(s)}${s.main.unit && s.main.unit !== '1' ? ` [${s.main.unit}]` : ''}`
+              ? `${isGraded ? '' : 'not graded: '}${mainText(s)}${s.main.unit && s.main.unit !== '1' ? ` [${shownUnit(s.main.unit)}]` : ''}`
               : 'no metric';
   return el(
     'tr',

@@ -9,6 +9,7 @@ import { labelOf, run, scenarioLink, verdictText } from '../run.ts';
 import { changeMark, facts, panel } from '../widgets.ts';
 import type { Context } from './context.ts';
 import { drawing } from './drawing.ts';
+import { saveSingleFile } from './single_file.ts';
 
 const tags = (names: string[]) => names.map((t) => el('span', { class: 'tag' }, t));
 
@@ -21,6 +22,7 @@ function prettyText(text: string): string {
 }
 
 function neighbours(index: number): Child {
+  if (run.single) return null;
   const link = (offset: number, text: string) => {
     const s = run.scenarios[index + offset];
     return s ? [' · ', el('a', { href: scenarioLink(s.name), title: s.name }, text)] : null;
@@ -48,11 +50,23 @@ function stepChoice({ scenario, steps, dt, spec }: Context): HTMLElement {
     );
   return el(
     'div',
-    { class: 'controls noprint' },
+    { class: 'controls' },
     el('span', { class: 'muted small' }, 'Time step'),
     el('span', { class: 'seg', role: 'group', 'aria-label': 'Time step' }, steps.map(button)),
   );
 }
+
+const saveButton = (context: Context): HTMLElement =>
+  el(
+    'button',
+    {
+      class: 'button',
+      title: 'Save this scenario with its replay and all numbers as one file, to send or to keep',
+      'data-action': 'save-page',
+      onclick: () => void saveSingleFile(context),
+    },
+    '⤓ one file',
+  );
 
 export function head(context: Context): HTMLElement {
   const { scenario, data, index, dt, spec, cases } = context;
@@ -86,7 +100,7 @@ export function head(context: Context): HTMLElement {
     scenario.referenceProblem
       ? el('p', { class: 'notice' }, `Run without a reference: ${scenario.referenceProblem}`)
       : null,
-    stepChoice(context),
+    el('div', { class: 'controls noprint' }, stepChoice(context), saveButton(context)),
     el(
       'div',
       { class: 'stats' },

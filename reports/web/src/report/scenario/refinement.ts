@@ -5,8 +5,9 @@
 // labelled ways. Shown from three time steps on.
 import { el } from '../../common/elements.ts';
 import { duration, format, full, timeStep, toNumber, unitText, words } from '../../common/format.ts';
+import type { Line } from '../charts/line.ts';
 import { dropPlots } from '../charts/live_plots.ts';
-import { type Line, plotCard } from '../charts/plot.ts';
+import { plotCard } from '../charts/plot.ts';
 import type { Case, Fairness, Order, ScenarioData } from '../data.ts';
 import { engineColour, labelOf, run } from '../run.ts';
 import { durationCell, headRow, numberCell, panel, scroll, select, stepCell } from '../widgets.ts';

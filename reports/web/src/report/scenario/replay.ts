@@ -17,6 +17,7 @@ export function replay(context: Context): HTMLElement | null {
     if (handle) return;
     handle = mountReplay(holder, {
       scenario: JSON.parse(data.text),
+      name: scenario.name,
       index: context.index,
       step: times.indexOf(context.dt),
       cursor,

@@ -3,9 +3,10 @@
 //
 // Charts of a study: lines over what its grid varies most, or a bar for each row.
 import { el } from '../../common/elements.ts';
-import { format, toNumber, unitText, words } from '../../common/format.ts';
+import { format, inShownUnit, shownUnit, toNumber, unitText, words } from '../../common/format.ts';
 import { barList } from '../charts/bars.ts';
-import { type Line, plotCard } from '../charts/plot.ts';
+import type { Line } from '../charts/line.ts';
+import { plotCard } from '../charts/plot.ts';
 import type { StudyChart, StudyPoint } from '../data.ts';
 import { palette } from '../run.ts';
 
@@ -24,9 +25,14 @@ export function studyLines(chart: StudyChart): { label: string; points: StudyPoi
 
 const dashes = [[], [6, 4], [2, 3], [10, 4]];
 
-function lineOf(label: string, points: StudyPoint[], index: number): Line {
-  const sorted = points.filter((p) => Number.isFinite(toNumber(p.x))).sort((a, b) => toNumber(a.x) - toNumber(b.x));
-  const value = (v: StudyPoint['value']) => (Number.isFinite(toNumber(v)) ? toNumber(v) : null);
+function lineOf(label: string, points: StudyPoint[], index: number, unit: string): Line {
+  const placed = points.filter((p) => Number.isFinite(toNumber(p.x)));
+  const sorted = [...placed].sort((a, b) => toNumber(a.x) - toNumber(b.x));
+  const inOrder = placed.every((p, i) => p === sorted[i]);
+  const value = (v: StudyPoint['value']) => {
+    const shown = toNumber(inShownUnit(v, unit));
+    return Number.isFinite(shown) ? shown : null;
+  };
   return {
     key: '',
     label,
@@ -34,6 +40,7 @@ function lineOf(label: string, points: StudyPoint[], index: number): Line {
     dash: dashes[Math.floor(index / palette.length) % dashes.length] as number[],
     width: 1.5,
     points: true,
+    ...(inOrder ? {} : { joined: { x: placed.map((p) => toNumber(p.x)), y: placed.map((p) => value(p.value)) } }),
     x: sorted.map((p) => toNumber(p.x)),
     y: sorted.map((p) => value(p.value)),
     low: sorted.map((p) => value(p.low)),
@@ -44,10 +51,10 @@ function lineOf(label: string, points: StudyPoint[], index: number): Line {
 
 export function studyChart(chart: StudyChart): HTMLElement {
   const title = titleOf(chart);
-  const unit = chart.unit && chart.unit !== '1' ? chart.unit : '';
+  const unit = chart.unit && chart.unit !== '1' ? shownUnit(chart.unit) : '';
   const attributes = { 'data-metric': chart.metric, 'data-kind': chart.axis ? 'lines' : 'bars' };
   if (chart.axis) {
-    const lines = studyLines(chart).map((line, i) => lineOf(line.label, line.points, i));
+    const lines = studyLines(chart).map((line, i) => lineOf(line.label, line.points, i, chart.unit));
     const axes = { xTitle: chart.axis, xUnit: '', logX: chart.logarithmicX, logY: chart.logarithmic, zeroY: true };
     const card = plotCard({ title, name: title, unit, ...axes, tall: true, lines });
     const key = lines.map((l) =>
@@ -58,7 +65,11 @@ export function studyChart(chart: StudyChart): HTMLElement {
     return card;
   }
   const textOf = (p: StudyPoint) =>
-    p.outcome !== 'completed' ? p.outcome : p.value === null ? 'no value' : format(p.value) + unitText(chart.unit);
+    p.outcome !== 'completed'
+      ? p.outcome
+      : p.value === null
+        ? 'no value'
+        : format(inShownUnit(p.value, chart.unit)) + unitText(chart.unit);
   const bars = chart.points.map((p) => ({
     label: p.label,
     value: toNumber(p.value),
@@ -70,7 +81,13 @@ export function studyChart(chart: StudyChart): HTMLElement {
   return el(
     'div',
     { class: 'chart', ...attributes },
-    el('h4', null, title, unit ? ` [${unit}]` : ''),
+    el(
+      'h4',
+      null,
+      title,
+      unit ? ` [${unit}]` : '',
+      chart.logarithmic ? el('span', { class: 'muted small' }, ' bars are logarithmic') : null,
+    ),
     barList(bars, chart.logarithmic, palette[0] as string),
   );
 }

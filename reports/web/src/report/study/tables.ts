@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { type Child, el } from '../../common/elements.ts';
-import { format, full, type Maybe, timeStep, words } from '../../common/format.ts';
+import { format, full, inShownUnit, type Maybe, shownUnit, timeStep, words } from '../../common/format.ts';
 import type { Finding, Study, StudyRow } from '../data.ts';
 import { run, scenarioLink } from '../run.ts';
 import { chip, looseHeadRow, numberCell, scroll } from '../widgets.ts';
@@ -35,13 +35,20 @@ export function rowsTable(rows: StudyRow[]): HTMLElement {
     const found = r.metrics[m];
     const title = `${full(found?.value)} ${found?.unit ?? ''}`;
     const note = found?.note ? el('span', { class: 'bound' }, found.note) : null;
-    return el('td', { class: 'num', title, 'data-value': full(found?.value) }, format(found?.value), note);
+    return el(
+      'td',
+      { class: 'num', title, 'data-value': full(found?.value) },
+      format(inShownUnit(found?.value, found?.unit ?? '')),
+      note,
+    );
   };
   const head = el(
     'tr',
     null,
     ['Variant', ...ways.map(([name]) => name)].map((t, i) => el('th', { class: i ? null : 'sticky', scope: 'col' }, t)),
-    metrics.map((m) => el('th', { class: 'num', scope: 'col' }, words(m), unitOf(m) ? ` [${unitOf(m)}]` : '')),
+    metrics.map((m) =>
+      el('th', { class: 'num', scope: 'col' }, words(m), unitOf(m) ? ` [${shownUnit(unitOf(m) ?? '')}]` : ''),
+    ),
     ended ? el('th', { scope: 'col' }, 'Outcome') : null,
   );
   const row = (r: StudyRow) =>
@@ -89,6 +96,15 @@ export function findings(study: Study): HTMLElement | null {
   );
 }
 
+/** A link to the replay of the run of a variant in the part of a symptom. */
+function variantLink(study: Study, part: string, variant: string): Child {
+  const rows = study.parts.find((p) => p.name === part)?.rows ?? [];
+  const row = rows.find((r) => r.variant === variant && run.scenarios.some((s) => s.name === r.scenario));
+  if (!row) return variant;
+  const href = scenarioLink(row.scenario, { dt: row.dt, spec: row.spec, t: 0, step: 0 });
+  return el('a', { href, title: 'Replay of this run' }, variant);
+}
+
 export function symptoms(study: Study): HTMLElement | null {
   if (study.symptoms.length === 0) return null;
   const rows = study.symptoms.map((s) =>
@@ -97,9 +113,9 @@ export function symptoms(study: Study): HTMLElement | null {
       null,
       el('th', { scope: 'row' }, s.name),
       el('td', null, s.metric + (s.growth ? ' ~ N^p' : '')),
-      el('td', null, s.fault),
+      el('td', null, variantLink(study, s.name, s.fault)),
       numberCell(s.fault_value),
-      el('td', null, s.cure),
+      el('td', null, variantLink(study, s.name, s.cure)),
       numberCell(s.cure_value),
       el('td', { class: 'small' }, s.switched.join('; ')),
       el(
