@@ -163,6 +163,40 @@ describe('tools of the replay', { skip }, () => {
     it.clean();
   });
 
+  test('plots of one’s own are added by clicks and kept in the address', async () => {
+    await it.open('#/scenario/slide_and_stop');
+    await it.page.click('#free-plots summary');
+    const form = it.page.locator('#free-plots');
+    await form.getByLabel('Of', { exact: true }).selectOption('block');
+    await form.getByLabel('Quantity').selectOption('vx');
+    await it.page.click('#free-plots [data-action="add-plot"]');
+    await form.getByLabel('Over').selectOption('px');
+    await form.getByLabel('Engine').selectOption(one);
+    await it.page.click('#free-plots [data-action="add-plot"]');
+    await form.getByLabel('Of', { exact: true }).selectOption('floor|block');
+    await form.getByLabel('Quantity').selectOption('depth');
+    await it.page.click('#free-plots [data-action="add-plot"]');
+    const names = () =>
+      it.page.locator('#free-plots .chart').evaluateAll((all) => all.map((c) => c.getAttribute('data-plot')));
+    const wanted = ['block: velocity x', 'block: velocity x over position x', 'floor and block: largest depth'];
+    assert.deepEqual(await names(), wanted);
+    const csv = (await download(() => form.locator('.chart').first().locator('select.save').selectOption('csv'))).data;
+    const rows = csv
+      .toString()
+      .trim()
+      .split('\n')
+      .map((row) => row.split(','));
+    const own = rows.filter((row) => row[0] === 'rigor matched').map((row) => Number(row[2]));
+    assert.ok(own.length > 50 && (own[0] ?? 0) > 1 && Math.abs(own.at(-1) ?? 1) < 1e-3, 'it slides, then stands');
+    const hash = await it.page.evaluate(() => location.hash);
+    await it.open(hash);
+    await it.page.waitForSelector('#free-plots .chart');
+    assert.deepEqual(await names(), wanted);
+    await it.page.locator('#free-plots .chart button[aria-label^="Remove"]').first().click();
+    assert.deepEqual(await names(), wanted.slice(1));
+    it.clean();
+  });
+
   test('one file of one scenario opens alone, with its replay', async () => {
     await it.open('#/scenario/slide_and_stop');
     const page = await download(() => it.page.click('[data-action="save-page"]'));

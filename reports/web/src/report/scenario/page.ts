@@ -13,6 +13,7 @@ import { caseAudit } from './audit.ts';
 import { commands } from './commands.ts';
 import { type Context, type Section, showMoment } from './context.ts';
 import { curves } from './curves.ts';
+import { freePlots } from './free_plots.ts';
 import { head } from './head.ts';
 import { metrics } from './metrics.ts';
 import { outcomes, verdicts } from './outcomes.ts';
@@ -28,6 +29,7 @@ const sections: Section[] = [
   outcomes,
   replay,
   curves,
+  freePlots,
   metrics,
   caseAudit,
   refinement,
