@@ -6,6 +6,7 @@ import type { Case, Metric } from '../data.ts';
 import { labelOf, run } from '../run.ts';
 import { changeMark, chip, gradeChip, headRow, panel, scroll } from '../widgets.ts';
 import { type Context, moment } from './context.ts';
+import { standingText } from './standing.ts';
 
 const most = 6; // metrics of one case
 
@@ -13,6 +14,11 @@ const most = 6; // metrics of one case
 export function verdicts(context: Context): HTMLElement | null {
   const ran = context.cases.filter((c) => c.shown !== 'unsupported');
   if (ran.length === 0) return null;
+  const { scenario, data } = context;
+  const standing = (c: Case) => {
+    const text = standingText(c, scenario.metrics, scenario.duration, data.text);
+    return text ? el('div', { class: 'small standing' }, text) : null;
+  };
   const row = (c: Case) =>
     el(
       'tr',
@@ -29,7 +35,7 @@ export function verdicts(context: Context): HTMLElement | null {
         ' ',
         c.judged.change || '—',
       ),
-      el('td', { 'data-label': 'Ending' }, chip(c.shown)),
+      el('td', { 'data-label': 'Ending' }, chip(c.shown), standing(c)),
     );
   const heads = headRow(
     ['Engine', 'Accuracy', 'What is claimed', '× best', '× ours', 'Against the record', 'Ending'],
