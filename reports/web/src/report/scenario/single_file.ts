@@ -12,6 +12,9 @@ import type { Context } from './context.ts';
 
 /** Text that may stand in a script element. */
 const inScript = (text: string) => text.replaceAll('<', '\\u003c');
+/** An element as text. Its tags are put together here: the code of a page must not have those of scripts and styles. */
+const element = (tag: string, attributes: string, content: string) => `<${tag}${attributes}>${content}</${tag}>`;
+const jsonElement = (id: string, json: string) => element('script', ` type="application/json" id="${id}"`, json);
 const escaped = (text: string) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
 
 /** The run with one scenario and nothing about the others. */
@@ -31,7 +34,7 @@ export function runOfOne(whole: Run, name: string): Run {
 }
 
 async function dataOf(name: string, as: string): Promise<string> {
-  return `<script type="application/json" id="data-${as}">${JSON.stringify(await loadText(name))}</script>`;
+  return jsonElement(`data-${as}`, JSON.stringify(await loadText(name)));
 }
 
 /** The text of the page; replays of time steps that have none are left out. */
@@ -51,11 +54,13 @@ export async function singleFile({ scenario, index, data }: Context): Promise<st
     '<meta name="viewport" content="width=device-width, initial-scale=1">',
     '<meta name="color-scheme" content="light dark">',
     `<meta http-equiv="Content-Security-Policy" content="${escaped(policy)}">`,
-    `<title>${escaped(scenario.name)}</title>\n<link rel="icon" href="data:,">\n<style>\n${style}\n</style>\n</head>\n<body>`,
+    `${element('title', '', escaped(scenario.name))}\n<link rel="icon" href="data:,">`,
+    `${element('style', '', style)}\n</head>\n<body>`,
     '<header id="top"></header>\n<main id="page"></main>\n<footer id="foot"></footer>',
-    `<script type="application/json" id="run-data">${inScript(JSON.stringify(runOfOne(run, scenario.name)))}</script>`,
+    jsonElement('run-data', inScript(JSON.stringify(runOfOne(run, scenario.name)))),
     ...parts,
-    `<script nonce="rigor">${code?.textContent ?? ''}</script>\n</body>\n</html>\n`,
+    element('script', ' nonce="rigor"', code?.textContent ?? ''),
+    '</body>\n</html>\n',
   ].join('\n');
 }
 
