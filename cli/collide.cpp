@@ -10,6 +10,8 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "reports/encoding/text.hpp"
+#include "reports/page/html.hpp"
 #include "scenarios/loader/collision_cases.hpp"
 #include "validation/collide/print.hpp"
 #include "validation/collide/random_pairs.hpp"
@@ -56,6 +58,32 @@ std::vector<adapter::EngineSpec> chooseSpecs(const CollideArguments& a, int jobs
     return specs;
 }
 
+/// Cases of a page: all of them, or the wrong ones and as many others as a browser bears.
+nlohmann::ordered_json pageRecord(const validation::CollideRun& run) {
+    constexpr std::size_t kMost = 2000;
+    auto record = validation::collideJson(run);
+    auto& cases = record["cases"];
+    if (cases.size() <= kMost) return record;
+    const auto isWrong = [](const auto& c) {
+        return std::any_of(c["answers"].begin(), c["answers"].end(), [](const auto& answer) {
+            return answer["verdict"] != "ok" && answer["verdict"] != "unsupported";
+        });
+    };
+    auto kept = nlohmann::ordered_json::array();
+    for (const auto& c : cases)
+        if (kept.size() < kMost && isWrong(c)) kept.push_back(c);
+    for (const auto& c : cases)
+        if (kept.size() < kMost && !isWrong(c)) kept.push_back(c);
+    record["left_out"] = cases.size() - kept.size();
+    cases = std::move(kept);
+    return record;
+}
+
+void writePage(const validation::CollideRun& run, const std::filesystem::path& folder) {
+    const auto text = pageRecord(run).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    report::writeFile(folder / "index.html", report::htmlCollide(text));
+}
+
 int collide(const CollideArguments& a) {
     const auto files = loadFiles(a);
     validation::CollideOptions options;
@@ -75,9 +103,12 @@ int collide(const CollideArguments& a) {
         interrupted);
     if (live) std::fprintf(stderr, "\r\033[K");
     if (!run.complete) return kInterrupted;
-    if (!a.out.empty())
-        for (const auto& file : validation::writeCollideFiles(run, a.out, ownCommandLine()))
-            if (!a.json) std::printf("%s\n", file.string().c_str());
+    if (!a.out.empty()) {
+        const auto written = validation::writeCollideFiles(run, a.out, ownCommandLine());
+        writePage(run, a.out);
+        if (!a.json)
+            for (const auto& file : written) std::printf("%s\n", file.string().c_str());
+    }
     if (a.json)
         std::printf("%s\n", validation::collideJson(run)
                                 .dump(1, ' ', false, nlohmann::json::error_handler_t::replace)
@@ -119,7 +150,7 @@ void addCollide(CLI::App& app, Action& action) {
     addEngines(*command, a->engines,
                "Specs, e.g. rigor:narrow_phase=gjk_epa,fcl (default: every engine, every algorithm)",
                "-e,--engines");
-    command->add_option("--out", a->out, "Folder for collide.json, collide.csv and summary.md");
+    command->add_option("--out", a->out, "Folder for a page, collide.json, collide.csv and summary.md");
     command->add_option("-j,--jobs", a->jobs, "Children at a time (default: processors)")
         ->check(CLI::Range(1, 1024));
     command

@@ -50,6 +50,7 @@ void addSolve(CLI::App& app, Action& action);
 void addCheck(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
+void addHistory(CLI::App& app, Action& action);
 void addRecord(CLI::App& app, Action& action);
 void addImport(CLI::App& app, Action& action);
 void addDraw(CLI::App& app, Action& action);

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     return runProgram(
         argc, argv,
         {{addValidate, addRun, addBench, addList, addStudy, addPieces, addCollide, addFreeze, addSolve,
-          addCheck, addCompare, addReport, addRecord, addImport, addFit, addView, addDraw},
+          addCheck, addCompare, addHistory, addReport, addRecord, addImport, addFit, addView, addDraw},
          {{"__bench", benchChild},
           {"__collide", collideChild},
           {"__fit", fitChild},

@@ -9,6 +9,8 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "reports/encoding/text.hpp"
+#include "reports/page/html.hpp"
 #include "validation/contact_problems/solve.hpp"
 
 namespace rigor::cli {
@@ -16,10 +18,17 @@ namespace {
 
 struct SolveArguments {
     std::vector<std::string> files;
-    std::string solvers, csv;
+    std::string solvers, csv, out;
     validation::SolveOptions options;
     bool json = false, all = false, quiet = false;
 };
+
+void writePage(const std::vector<validation::SolvedProblem>& problems, const std::filesystem::path& folder) {
+    const auto text =
+        validation::solveJson(problems).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    std::filesystem::create_directories(folder);
+    report::writeFile(folder / "index.html", report::htmlSolve(text));
+}
 
 int solve(SolveArguments a) {
     a.options.binary = ownBinary();
@@ -39,6 +48,7 @@ int solve(SolveArguments a) {
     if (live) std::fprintf(stderr, "\r\033[K");
     if (!complete) return kInterrupted;
     if (!a.csv.empty()) validation::writeSolveCsv(problems, a.csv);
+    if (!a.out.empty()) writePage(problems, a.out);
     if (a.json)
         std::printf("%s\n", validation::solveJson(problems)
                                 .dump(1, ' ', false, nlohmann::json::error_handler_t::replace)
@@ -74,6 +84,7 @@ void addSolve(CLI::App& app, Action& action) {
     command->add_option("-j,--jobs", a->options.jobs, "Children at a time (default 1: times are taken alone)")
         ->check(CLI::Range(1, 1024));
     command->add_option("--csv", a->csv, "Write every number of iterations of every solver to this file");
+    command->add_option("--out", a->out, "Folder for a page: residual over iterations and over time");
     command->add_flag("--all", a->all, "Print every number of iterations, not only the last");
     command->add_flag("--json", a->json, "Print the full record as JSON");
     command->add_flag("-q,--quiet", a->quiet, "No progress");

@@ -44,6 +44,22 @@ TEST_F(CompareCommand, TheSameRunTwiceIsTheSame) {
     EXPECT_GT(out.at("specs")[0].at("same"), 5);
 }
 
+TEST_F(CompareCommand, TheHistoryOfRunsIsAPageAndATable) {
+    EXPECT_EQ(rigor(validate("b", "rigor")).code, 0);
+    const auto one = rigor("history " + path("a") + " --out " + path("page"));
+    EXPECT_EQ(one.code, 2);
+    EXPECT_NE(one.out.find("expected two or more"), std::string::npos) << one.out;
+    const auto two = rigor("history " + path("a") + " " + path("b") + " --out " + path("page"));
+    EXPECT_EQ(two.code, 0) << two.out;
+    std::ifstream table(path("page/history.csv"));
+    std::string head;
+    std::getline(table, head);
+    EXPECT_TRUE(head.starts_with("run,started,scenario,spec,")) << head;
+    std::ifstream page(path("page/index.html"));
+    const std::string text((std::istreambuf_iterator<char>(page)), {});
+    EXPECT_NE(text.find("\"time_ratio\""), std::string::npos) << "the comparison of the two is in the page";
+}
+
 /// A record that says half or twice of what the run gives.
 TEST_F(CompareCommand, AChangeInEitherDirectionIsSeenAgainstTheRecord) {
     ASSERT_EQ(rigor("record " + path("a") + " --out " + path("library/recorded")).code, 0);

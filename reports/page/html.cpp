@@ -50,18 +50,35 @@ void fill(std::string& page, const std::string& mark, const std::string& with) {
     page.replace(at, mark.size(), with);
 }
 
+/// The template with a bundle and its data.
+std::string pageOf(const std::string& title, const std::string& bundle, const std::string& data) {
+    std::string page(webAsset("page.html"));
+    fill(page, "<!--title-->", escapeMarkup(title));
+    fill(page, "/*style*/", inlined(bundle + ".css"));
+    fill(page, "<!--data-->", data);
+    fill(page, "/*script*/", inlined(bundle + ".js"));
+    return page;
+}
+
 }  // namespace
 
 std::string htmlReport(const ViewModel& view, const std::string& study) {
-    std::string page(webAsset("page.html"));
     const auto& suite = view.run().suite;
-    fill(page, "<!--title-->", "Rigor report" + (suite.empty() ? "" : ": " + escapeMarkup(suite)));
-    fill(page, "/*style*/", inlined("report.css"));
-    fill(page, "<!--data-->",
-         dataElement("run-data", overviewJson(view)) +
-             (study.empty() ? "" : dataElement("study-data", study)));
-    fill(page, "/*script*/", inlined("report.js"));
-    return page;
+    return pageOf("Rigor report" + (suite.empty() ? "" : ": " + suite), "report",
+                  dataElement("run-data", overviewJson(view)) +
+                      (study.empty() ? "" : dataElement("study-data", study)));
+}
+
+std::string htmlHistory(const std::string& json) {
+    return pageOf("Rigor history", "history", dataElement("history-data", json));
+}
+
+std::string htmlCollide(const std::string& json) {
+    return pageOf("Rigor collide", "collide", dataElement("collide-data", json));
+}
+
+std::string htmlSolve(const std::string& json) {
+    return pageOf("Rigor solve", "solve", dataElement("solve-data", json));
 }
 
 }  // namespace rigor::report

@@ -13,4 +13,13 @@ namespace rigor::report {
 /// The page with the overview's data in it. `study`: studyPageJson() of a study's run, else empty.
 std::string htmlReport(const ViewModel& view, const std::string& study = "");
 
+/// The page of several runs after each other, with its data in it.
+std::string htmlHistory(const std::string& json);
+
+/// The page of `rigor collide`, of its record (collide.json).
+std::string htmlCollide(const std::string& json);
+
+/// The page of `rigor solve`, of its record.
+std::string htmlSolve(const std::string& json);
+
 }  // namespace rigor::report

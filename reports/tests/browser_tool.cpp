@@ -4,6 +4,7 @@
 // Help for the tests of the page in a browser (web/tests/browser):
 //   report_tool query FILE SQL    rows of a store as a JSON array of arrays, read by SQLite itself
 //   report_tool bench FOLDER      the report of a synthetic bench
+//   report_tool history FOLDER    the history of three synthetic runs, the last one with one worse case
 //   report_tool synthetic FOLDER  the report of the synthetic run, with its bad endings, and of a synthetic study
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -16,6 +17,7 @@
 #include "reports/encoding/data_files.hpp"
 #include "reports/encoding/text.hpp"
 #include "reports/model/view_model.hpp"
+#include "reports/page/history.hpp"
 #include "reports/page/html.hpp"
 #include "reports/page/page_data.hpp"
 #include "reports/plots/study.hpp"
@@ -91,6 +93,51 @@ int synthesiseBench(const fs::path& folder) {
     return 0;
 }
 
+/// The record of `rigor compare --json` on the change below.
+std::string changeOf(const rigor::results::CaseRow& c, const rigor::results::MetricRow& m) {
+    using nlohmann::json;
+    const json place{{"scenario", c.scenario}, {"spec", c.spec}, {"dt", c.dt}};
+    json metric = place;
+    metric.update({{"metric", m.name},
+                   {"unit", m.unit},
+                   {"before", m.value},
+                   {"after", 4.0 * m.value},
+                   {"worse", true}});
+    json spec{{"name", c.spec}, {"cases", 20}, {"better", 0}, {"worse", 1}, {"same", 19}, {"p_errors", 1.0}};
+    spec.update({{"timed", 20}, {"time_ratio", 1.2}, {"time_interval", {1.1, 1.3}}, {"p_time", 0.02}});
+    json change{{"worse", true}, {"specs", {spec}}, {"metrics", {metric}}, {"verdicts", json::array()}};
+    for (const char* key : {"changed_scenarios", "only_before", "only_after", "environment"})
+        change[key] = json::array();
+    return change.dump();
+}
+
+int synthesiseHistory(const fs::path& folder) {
+    std::vector<rigor::results::Run> runs(3, synthetic::makeRun());
+    const char* const names[] = {"monday", "tuesday", "wednesday"};
+    for (std::size_t i = 0; i < runs.size(); ++i) runs[i].directory = names[i];
+    std::string change;
+    const ViewModel view(runs[1]);
+    for (auto& c : runs[2].cases) {
+        if (c.outcome != rigor::results::Outcome::Completed || c.timings.empty()) continue;
+        std::size_t scenario = 0;
+        while (runs[2].scenarios[scenario].name != c.scenario) ++scenario;
+        const auto* main = findMetric(c, view.mainMetric(scenario).name);
+        if (main == nullptr || !(main->value > 0.0)) continue;
+        change = changeOf(c, *main);
+        for (auto& m : c.metrics)
+            if (m.name == main->name) m.value *= 4.0;
+        for (auto& t : c.timings) {
+            t.median *= 2.0;
+            if (t.low) *t.low *= 2.0;
+            if (t.high) *t.high *= 2.0;
+        }
+        break;
+    }
+    fs::create_directories(folder);
+    writeFile(folder / "index.html", historyPage(runs, {"", change}));
+    return 0;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -99,7 +146,8 @@ int main(int count, char** arguments) {
         if (what == "query" && count == 4) return query(arguments[2], arguments[3]);
         if (what == "synthetic" && count == 3) return synthesise(arguments[2]);
         if (what == "bench" && count == 3) return synthesiseBench(arguments[2]);
-        std::fputs("report_tool query FILE SQL | synthetic FOLDER | bench FOLDER\n", stderr);
+        if (what == "history" && count == 3) return synthesiseHistory(arguments[2]);
+        std::fputs("report_tool query FILE SQL | synthetic FOLDER | bench FOLDER | history FOLDER\n", stderr);
         return 2;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "report_tool: %s\n", error.what());

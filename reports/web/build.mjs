@@ -10,7 +10,13 @@ import { build } from 'esbuild';
 const [output = 'dist', mode] = process.argv.slice(2);
 
 const pages = {
-  entryPoints: { report: 'src/report/main.ts', live: 'src/live/main.ts' },
+  entryPoints: {
+    report: 'src/report/main.ts',
+    live: 'src/live/main.ts',
+    history: 'src/history/main.ts',
+    collide: 'src/collide/main.ts',
+    solve: 'src/solve/main.ts',
+  },
   format: 'iife',
   target: ['chrome110', 'firefox115', 'safari16.4'],
   minify: true,

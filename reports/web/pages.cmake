@@ -7,7 +7,9 @@ find_program(RIGOR_NPM npm REQUIRED DOC "npm, for the libraries of package-lock.
 
 set(web ${CMAKE_CURRENT_LIST_DIR})
 set(bundles ${CMAKE_CURRENT_BINARY_DIR}/web/bundles)
-set(RIGOR_WEB_BUNDLES ${bundles}/report.js ${bundles}/report.css ${bundles}/live.js ${bundles}/live.css)
+set(RIGOR_WEB_BUNDLES ${bundles}/report.js ${bundles}/report.css ${bundles}/live.js ${bundles}/live.css ${bundles}/history.js
+                      ${bundles}/history.css ${bundles}/collide.js ${bundles}/collide.css
+                      ${bundles}/solve.js ${bundles}/solve.css)
 
 # All build folders share the libraries: installed once for each lock file, by one build at a time.
 set(installed ${web}/node_modules/.package-lock.json)

@@ -93,6 +93,14 @@ export function makeBench(name: string): string {
   return folder;
 }
 
+/** The history of three synthetic runs, the last one with one worse case. */
+export function makeHistory(name: string): string {
+  const folder = join(binaries, 'web_runs', name);
+  rmSync(folder, { recursive: true, force: true });
+  program('tests/report_tool', 'history', folder);
+  return folder;
+}
+
 /** Rows of a run's store. */
 export const query = (run: string, sql: string): unknown[][] =>
   JSON.parse(program('tests/report_tool', 'query', join(run, 'results.sqlite'), sql)) as unknown[][];

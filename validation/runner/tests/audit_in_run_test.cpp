@@ -163,7 +163,7 @@ TEST_F(InRun, ForgottenAndInvented) {
     EXPECT_EQ(audited().spurious, 0);
 }
 
-/// What is needed to draw the worst normal: the engine's, the exact one, their angle and the witness points.
+/// A finding has what a drawing of it needs: the engine's normal, the exact one, their angle, witness points.
 TEST_F(InRun, TheWorstOfEachKindIsKeptWithTheExactSolution) {
     EXPECT_EQ(audited().findings, "");
     const double tilt = 0.2, deeper = 0.03;  // [rad/s], [m/s]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is seen of the replay as files: the picture with its names as PNG, the whole run as a video, the states of the
+// Files of what the replay shows: the picture with its names as PNG, the whole run as a video, the states of the
 // bodies as CSV.
 
 import { csvText } from '../common/download.ts';

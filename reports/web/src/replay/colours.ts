@@ -38,8 +38,8 @@ export interface Theme {
   ghost: string;
   contact: string;
   normal: string;
-  exact: string; // what the exact solution says
-  angle: string; // between a normal and the exact one
+  exact: string; // colour of the exact solution
+  angle: string; // angle between a normal and the exact one
   impulse: string;
   penetration: string;
   velocity: string;

@@ -8,7 +8,7 @@ import type { FetchFrames } from './full_frames.ts';
 import type { Json } from './json.ts';
 
 export interface ReplayContext {
-  name?: string; // of the scenario, for files
+  name?: string; // name of the scenario, for files
   scenario: Json; // the scenario file, parsed
   index: number; // index of the scenario in the run
   step: number; // index of the time step among those that were run, coarsest first

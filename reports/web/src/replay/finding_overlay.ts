@@ -46,7 +46,7 @@ export function arc(at: Vec3, from: Vec3, to: Vec3, radius: number, steps = arcS
   });
 }
 
-const exactLength = 0.8; // of the exact normal, so that both heads are seen where the normals agree
+const exactLength = 0.8; // length of the exact normal, so that both heads are seen where the normals agree
 
 /** Angle in degrees, three digits; what is smaller than rounding is none. */
 export const degrees = (radians: number): string =>
@@ -64,7 +64,9 @@ export function findingNotes(finding: ContactFinding, length: number): Note[] {
   if (!said) notes.push({ at, text: 'no contact of the engine', kind: 'engine' });
   if (said && exact && finding.what === 'depth') {
     const apart = -(finding.exact?.distance ?? Number.NaN);
-    const text = `depth ${lengthText(said.depth)}, exact ${lengthText(apart)}`;
+    const kind = apart < 0 ? 'distance' : 'depth';
+    const [own, exactly] = [said.depth, apart].map((x) => lengthText(apart < 0 ? -x : x));
+    const text = `${kind} ${own}, exact ${exactly}`;
     notes.push({ at: along(at, exact, -0.25 * length), text, kind: 'measure' });
   } else if (said && exact) {
     const bow = arc(at, said.normal, exact, 0.62 * length);

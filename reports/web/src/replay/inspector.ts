@@ -55,7 +55,7 @@ const findingTitles: Record<ContactFinding['what'], string> = {
 };
 
 /** The engine's numbers beside the exact ones. */
-function findingRows(finding: ContactFinding): HTMLElement[] {
+export function findingRows(finding: ContactFinding, withTitle = true): HTMLElement[] {
   const { what, said, exact } = finding;
   const nearest = nearestExact(finding);
   const names = finding.names.map((name, i) => {
@@ -71,8 +71,12 @@ function findingRows(finding: ContactFinding): HTMLElement[] {
   const apart = exact ? -exact.distance : null;
   const ties = exact?.normals.length ?? 0;
   return [
-    el('dt', { class: 'finding' }, findingTitles[what]),
-    el('dd', { class: 'finding', 'data-quantity': 'finding' }, names.join(' and ')),
+    ...(withTitle
+      ? [
+          el('dt', { class: 'finding' }, findingTitles[what]),
+          el('dd', { class: 'finding', 'data-quantity': 'finding' }, names.join(' and ')),
+        ]
+      : []),
     ...(angle ? row('angle between', angle, '', 'angle') : []),
     ...pair('normal', 'normal', said && three(said.normal, 0), nearest && three(nearest, 0)),
     ...(ties > 1 ? row('', `nearest of ${ties} exact normals`, '', 'ties') : []),

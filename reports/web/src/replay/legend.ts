@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the colours of the picture mean, for the layers that are on, and how long an arrow of full length is.
+// Meaning of the colours of the picture, for the layers that are on, and how long an arrow of full length is.
 import { type Child, el } from '../common/elements.ts';
 import type { Theme } from './colours.ts';
 import type { ViewOptions } from './layers.ts';

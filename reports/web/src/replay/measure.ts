@@ -39,7 +39,7 @@ export class Measure {
     this.#marks = [];
   }
 
-  /** What is measured at a frame of the source. */
+  /** Distances and angles at a frame of the source. */
   at(
     frameOf: (source: FrameSource) => Frame | null,
   ): { source: FrameSource; notes: Note[]; lines: [Vec3, Vec3][] } | null {

@@ -58,7 +58,7 @@ export class ReplayStage implements ReplayActions {
   #chosen: Set<string>; // specs that have a picture
   #pinned: Pinned | null = null;
   #hover: Pick | null = null;
-  #followed: Vec3 | null = null; // where the body was that the camera goes along with
+  #followed: Vec3 | null = null; // last place of the body that the camera goes along with
   following = false;
   measuring = false;
   readonly #thinned: Map<FrameSource, () => Promise<FrameSource>> | null;

@@ -221,7 +221,7 @@ export class ReplayView {
     return this.#pictures.map((picture) => picture.panel);
   }
 
-  /** What the colours mean that are on the picture. */
+  /** Meaning of the colours that are on the picture. */
   get legend(): ReturnType<typeof legendOf> {
     const shown = this.#sources.filter((s) => !s.ghost);
     return legendOf(this.options, this.#theme, this.#scales, {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the numbers of a row of the scoreboard are of: the metric that decides, and of named quantities which ones.
+// Names of the numbers in a row of the scoreboard: the metric that decides, and which of the named quantities.
 import { words } from '../common/format.ts';
 import type { Scenario } from './data.ts';
 

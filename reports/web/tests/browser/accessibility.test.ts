@@ -5,7 +5,17 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, test } from 'node:test';
-import { makeBench, makeSynthetic, type Opened, open, reportOf, skip, smokeRun, watched } from '../browser.ts';
+import {
+  makeBench,
+  makeHistory,
+  makeSynthetic,
+  type Opened,
+  open,
+  reportOf,
+  skip,
+  smokeRun,
+  watched,
+} from '../browser.ts';
 
 const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
 const looks = [
@@ -51,4 +61,9 @@ describe('a run with every bad ending has none', { skip }, () => {
 describe('a bench has none', { skip }, () => {
   const it = reportOf(() => makeBench('accessible_bench'));
   test('the overview', async () => assert.deepEqual(await findings(it, ''), []));
+});
+
+describe('a history has none', { skip }, () => {
+  const it = reportOf(() => makeHistory('accessible_history'));
+  test('the page', async () => assert.deepEqual(await findings(it, ''), []));
 });

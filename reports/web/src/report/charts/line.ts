@@ -15,6 +15,7 @@ export interface Line {
   y: (number | null)[];
   low?: (number | null)[]; // bound of an interval around y
   high?: (number | null)[];
+  marked?: number[]; // samples with a ring
   notes?: string[]; // said of each sample when it is read out
   joined?: { x: number[]; y: (number | null)[] }; // order in which samples are joined, where that is not by x
 }

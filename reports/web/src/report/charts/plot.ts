@@ -133,7 +133,7 @@ function optionsOf(plot: Plot, log: boolean, box: HTMLElement): uPlot.Options {
       ...(plot.cursor ? { sync: { key: 'time', setSeries: false, scales: ['x', null] } } : {}),
     },
     hooks: {
-      draw: [(u) => drawJoined(u, plot), (u) => drawIntervals(u, plot)],
+      draw: [(u) => drawJoined(u, plot), (u) => drawIntervals(u, plot), (u) => drawRings(u, plot)],
       setSeries: [],
     },
   };
@@ -162,6 +162,25 @@ function drawJoined(u: uPlot, plot: Plot): void {
       begun = true;
     });
     ctx.stroke();
+    ctx.restore();
+  });
+}
+
+/** Rings around marked samples. */
+function drawRings(u: uPlot, plot: Plot): void {
+  const { ctx } = u;
+  plot.lines.forEach((line, i) => {
+    if (!u.series[i + 1]?.show) return;
+    ctx.save();
+    ctx.strokeStyle = colourOf(line);
+    ctx.lineWidth = 2 * uPlot.pxRatio;
+    for (const k of line.marked ?? []) {
+      const y = line.y[k] ?? null;
+      if (y === null) continue;
+      ctx.beginPath();
+      ctx.arc(u.valToPos(line.x[k] as number, 'x', true), u.valToPos(y, 'y', true), 8 * uPlot.pxRatio, 0, 2 * Math.PI);
+      ctx.stroke();
+    }
     ctx.restore();
   });
 }

@@ -114,7 +114,7 @@ export function ordered(list: Scenario[], columns: Column[], f: Filters): Scenar
 const noDigits = 1e-6; // relative errors of grade A count as equal
 const lost = 10; // decades: a run that ended early is further off than any error
 
-/** How far engines are apart on a scenario, in decades of relative error; -1 where fewer than two have a result. */
+/** Distance of the engines on a scenario, in decades of relative error; -1 where fewer than two have a result. */
 export function difference(s: Scenario, columns: Column[], step: StepChoice): number {
   const places = columns.flatMap((c) => {
     const cell = cellOf(s, c, step);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a free plot shows, as text for the address: "block~py~t~", "block|floor~depth~t~<spec>", "block~vx~px~".
+// Content of a free plot as text for the address: "block~py~t~", "block|floor~depth~t~<spec>", "block~vx~px~".
 
 export interface Choice {
   of: string; // a body, or two as "a|b"

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The history of several runs: a value for each run, in the order of the runs, with gaps where a run does not
+// have a case.
+#include "reports/page/history.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "reports/tests/synthetic_run.hpp"
+
+namespace rigor::report {
+namespace {
+
+using results::CaseRow;
+
+results::Run runNamed(const std::string& folder) {
+    results::Run run = synthetic::makeRun(2);
+    run.directory = folder;
+    return run;
+}
+
+nlohmann::json dataOf(const std::string& page) {
+    const std::string mark = "id=\"history-data\">";
+    const auto from = page.find(mark) + mark.size();
+    return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+const nlohmann::json& seriesOf(const nlohmann::json& data, const CaseRow& c) {
+    for (const auto& s : data.at("series"))
+        if (s.at("scenario") == c.scenario && s.at("spec") == c.spec && s.at("dt") == c.dt) return s;
+    throw std::runtime_error("no series of " + c.id);
+}
+
+/// A case that completed and has its main metric and a time.
+std::size_t completed(const results::Run& run) {
+    for (std::size_t i = 0; i < run.cases.size(); ++i)
+        if (run.cases[i].outcome == results::Outcome::Completed && !run.cases[i].timings.empty() &&
+            !run.cases[i].metrics.empty())
+            return i;
+    throw std::runtime_error("no case completed");
+}
+
+TEST(History, EachRunHasItsValueAndAGapWhereItDoesNotHaveTheCase) {
+    std::vector<results::Run> runs{runNamed("runs/first"), runNamed("runs/second/"), runNamed("third")};
+    const std::size_t at = completed(runs[0]);
+    for (auto& t : runs[2].cases[at].timings) t.median *= 3.0;
+    for (auto& m : runs[2].cases[at].metrics) m.value *= 2.0;
+    const CaseRow sample = runs[0].cases[at];
+    runs[1].cases.erase(runs[1].cases.begin() + static_cast<std::ptrdiff_t>(at));
+    const auto data = dataOf(historyPage(runs, {"", R"({"worse":true})"}));
+    ASSERT_EQ(data.at("runs").size(), 3u);
+    EXPECT_EQ(data.at("runs")[0].at("name"), "first");
+    EXPECT_EQ(data.at("runs")[1].at("name"), "second");
+    EXPECT_EQ(data.at("runs")[2].at("name"), "third");
+    EXPECT_TRUE(data.at("changes")[0].is_null());
+    EXPECT_TRUE(data.at("changes")[1].at("worse"));
+    const auto& s = seriesOf(data, sample);
+    ASSERT_EQ(s.at("error").size(), 3u);
+    EXPECT_TRUE(s.at("error")[1].is_null());
+    EXPECT_TRUE(s.at("time")[1].is_null());
+    EXPECT_EQ(s.at("outcome")[1], "");
+    EXPECT_EQ(s.at("outcome")[0], "completed");
+    EXPECT_DOUBLE_EQ(s.at("error")[2].get<double>(), 2.0 * s.at("error")[0].get<double>());
+    EXPECT_DOUBLE_EQ(s.at("time")[2].get<double>(), 3.0 * s.at("time")[0].get<double>());
+}
+
+TEST(History, TheTableHasARowForEachCaseOfEachRun) {
+    const std::vector<results::Run> runs{runNamed("first"), runNamed("second")};
+    std::istringstream lines(historyCsv(runs));
+    std::string head, line;
+    std::getline(lines, head);
+    EXPECT_TRUE(head.starts_with("run,started,scenario,spec,dt,"));
+    std::size_t first = 0, second = 0;
+    while (std::getline(lines, line)) {
+        first += line.starts_with("first,") ? 1 : 0;
+        second += line.starts_with("second,") ? 1 : 0;
+    }
+    EXPECT_EQ(first, runs[0].cases.size());
+    EXPECT_EQ(second, runs[1].cases.size());
+}
+
+TEST(History, NoNameIsMarkup) {
+    const std::vector<results::Run> runs{runNamed("first"), runNamed("second")};
+    EXPECT_EQ(historyPage(runs, {""}).find("<img src=x"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rigor::report

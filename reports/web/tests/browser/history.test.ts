@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The page of `rigor history`: what changed comes first, with its numbers and statistics; filters stand in the address.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { describe, test } from 'node:test';
+import type { History } from '../../src/history/data.ts';
+import { makeHistory, reportOf, screenshots, skip } from '../browser.ts';
+
+describe('the history of three runs', { skip }, () => {
+  const it = reportOf(() => makeHistory('history'));
+  const stored = (): History => {
+    const page = readFileSync(join(it.run, 'index.html'), 'utf8');
+    return JSON.parse(/id="history-data">(.*?)<\/script>/s.exec(page)?.[1] ?? '') as History;
+  };
+
+  test('names the runs, and says of each step what changed', async () => {
+    await it.open();
+    assert.deepEqual(
+      await it.page.locator('#runs tbody tr td:nth-child(2)').allTextContents(),
+      stored().runs.map((r) => r.name),
+    );
+    assert.match(await it.text('#changes > div'), /no case in common/);
+    const change = stored().changes[1];
+    assert.ok(change);
+    const text = await it.text('#changes .change');
+    assert.ok(text.includes(change.metrics[0]?.scenario ?? '?'), text.slice(0, 200));
+    assert.match(text, /×1\.2 \(1\.10 … 1\.30\)/);
+    await it.page.screenshot({ path: join(screenshots, 'history.png'), fullPage: true });
+    it.clean();
+  });
+
+  test('the scenario that changed comes first, with the factors of error and time', async () => {
+    await it.open();
+    const first = it.page.locator('#scenarios article').first();
+    assert.equal(await first.getAttribute('data-scenario'), stored().changes[1]?.metrics[0]?.scenario);
+    const text = (await first.locator('ul').textContent()) ?? '';
+    assert.match(text, /▼ run 3, .*: error ×4/);
+    assert.match(text, /▼ run 3, .*: time ×2 /);
+    assert.equal(await first.locator('.chart').count(), 2);
+    assert.match(await it.text('#scenarios [role="status"]'), /, 1 with a change/);
+    it.clean();
+  });
+
+  test('filters stand in the address', async () => {
+    await it.open();
+    const name =
+      stored().series.find((s) => /^\w+$/.test(s.scenario) && s.scenario !== stored().series[0]?.scenario)?.scenario ??
+      '';
+    await it.page.getByLabel('Scenario').fill(name);
+    const found = await it.page
+      .locator('#scenarios article')
+      .evaluateAll((all) => all.map((a) => a.getAttribute('data-scenario')));
+    assert.ok(found.includes(name) && found.every((other) => other?.includes(name)), found.join());
+    const hash = await it.page.evaluate(() => location.hash);
+    await it.open(hash);
+    assert.equal(await it.page.locator('#scenarios article').count(), found.length);
+    it.clean();
+  });
+});
