@@ -160,6 +160,7 @@ function scenarioNode(all: Series[]): HTMLElement {
       name: `${first.scenario}: ${title}`,
       unit,
       xTitle: 'run',
+      wholeX: true,
       xUnit: '',
       lines: list.map((s) => lineOf(s, all.indexOf(s), label(s), of)),
       zeroY: true,

@@ -27,6 +27,7 @@ export interface Plot {
   xTitle: string;
   xUnit: string;
   lines: Line[];
+  wholeX?: boolean; // ticks at whole numbers
   logX?: boolean;
   logY?: boolean;
   tall?: boolean;

@@ -123,7 +123,12 @@ function optionsOf(plot: Plot, log: boolean, box: HTMLElement): uPlot.Options {
       },
     },
     axes: [
-      { ...axis(plot.xTitle, plot.logX ?? false), size: 26, gap: 2 },
+      {
+        ...axis(plot.xTitle, plot.logX ?? false),
+        ...(plot.wholeX ? { incrs: [1, 2, 5, 10, 20, 50, 100] } : {}),
+        size: 26,
+        gap: 2,
+      },
       { ...axis('', log), size: 58, gap: 3 },
     ],
     series: [{}, ...series],
