@@ -183,15 +183,15 @@ export class BodyLayer {
     const flat = this.#surface instanceof MeshBasicMaterial;
     const surface = this.#surface;
     surface.transparent = ghost || flat;
-    surface.opacity = behind && flat ? 0.1 : ghost ? 0.25 : flat ? 0.85 : 1;
+    surface.opacity = behind ? 0.1 : ghost ? 0.25 : flat ? 0.85 : 1;
     surface.depthWrite = !ghost && !flat;
     surface.depthTest = !flat;
     surface.polygonOffsetFactor = surface.polygonOffsetUnits = behind ? 4 : 1;
     const coloured = ghost || !faces;
     this.#line.color.copy(coloured ? inkColour.set('#ffffff') : inkColour.set(ink));
     this.#line.transparent = true;
-    this.#line.opacity = behind ? 0.55 : coloured ? 0.95 : dark ? 0.75 : 0.6;
-    this.#line.depthTest = !flat;
+    this.#line.opacity = behind ? 0.9 : coloured ? 0.95 : dark ? 0.75 : 0.6;
+    this.#line.depthTest = !flat && !behind; // a reference inside of its body is still seen
     for (const batch of this.#batches) {
       if (batch.faces) batch.faces.visible = faces;
       const alone = batch.faces === null; // chains have nothing else

@@ -249,8 +249,9 @@ export class ReplayView {
 
   // ---- camera ----
 
-  /** Everything that moves, at any time. */
+  /** Everything that moves, at any time; nothing is glass for a finding any more. */
   frameAll(): void {
+    this.setFinding(null);
     this.#rig.release();
     this.#frame();
   }

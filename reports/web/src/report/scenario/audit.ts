@@ -52,6 +52,7 @@ function auditorRow(context: Context, c: Case, a: Audit): HTMLElement {
     'tr',
     { 'data-auditor': a.auditor, class: a.auditor === 'in_run' ? 'own' : null },
     el('th', { class: 'sticky', scope: 'row' }, a.auditor === 'in_run' ? 'the run itself' : a.auditor, ended),
+    worstCell(context, c, a),
     count(a.frames),
     count(a.queries),
     count(a.overlapping),
@@ -63,7 +64,6 @@ function auditorRow(context: Context, c: Case, a: Audit): HTMLElement {
     numberCell(a.depthErrorMax, 'm'),
     numberCell(a.depthErrorMedian, 'm'),
     numberCell(a.pointErrorMax, 'm'),
-    worstCell(context, c, a),
   );
 }
 
@@ -87,6 +87,7 @@ function pairRow(context: Context, c: Case, a: Audit): HTMLElement {
 
 const heads = [
   'Queried',
+  'Worst',
   'Frames',
   'Pairs',
   'Overlap',
@@ -98,7 +99,6 @@ const heads = [
   'Depth, worst [m]',
   'median [m]',
   'Point, worst [m]',
-  'Worst',
 ];
 const pairHeads = [
   'Queried',
@@ -137,7 +137,14 @@ export function caseAudit(context: Context): HTMLElement | null {
       'Sampled poses of the run named in the grey rows: the contacts that the run itself acted upon, and every collision engine queried at the same poses, ',
       'against the exact oracle. A link under “Worst” opens that moment and draws the engine’s normal, the exact ones, the angle between them and the witness points.',
     ),
-    scroll(el('table', { class: 'full' }, headRow(heads, last(heads)), bodies)),
+    scroll(
+      el(
+        'table',
+        { class: 'full' },
+        headRow(heads, (i) => i > 1),
+        bodies,
+      ),
+    ),
     pairs.length
       ? el(
           'details',
