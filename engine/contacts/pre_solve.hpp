@@ -46,7 +46,7 @@ struct PreSolveContact {
 template <class S>
 using PreSolve = std::function<void(PreSolveContact<S>&)>;
 
-/// What a callback has decided for a contact that it did not refuse.
+/// The law of a contact that a callback did not refuse.
 template <class S>
 struct PreSolveAnswer {
     PairCoefficients<S> coefficients;
@@ -64,7 +64,7 @@ class PreSolveCall {
     explicit operator bool() const { return callback_ != nullptr; }
     /// Calls the callback for the contact of two shapes whose bodies' centres of mass are at pA and pB. Nothing: a veto.
     /// Throws EngineError "pre_solve" where its coefficients or velocity are out of range, "material_moments" where the
-    /// solver does not have the friction that they ask for.
+    /// solver does not have such friction.
     std::optional<PreSolveAnswer<S>> operator()(const BodyArrays<S>& bodies, const ShapeRecord<S>& a,
                                                 const ShapeRecord<S>& b, std::uint32_t piece,
                                                 const Manifold<S>& manifold, const typename S::Vec& pA,

@@ -91,9 +91,9 @@ class ShapeSet {
     std::vector<Real> tolerance_;
     std::vector<std::uint8_t> movable_;
     Real speculativeDistance_ = 0;
-    std::vector<Real> motions_;          ///< of fast shapes, up to their size [m]
+    std::vector<Real> motions_;          ///< motion of fast shapes, up to their size [m]
     std::vector<typename S::Vec> ways_;  ///< ahead, of their bodies' centres of mass [m]
-    std::vector<Real> turns_;            ///< how far turning moves a point of theirs at most [m]
+    std::vector<Real> turns_;            ///< motion of a point by turning, at most [m]
     std::vector<std::uint8_t> ahead_;    ///< contacts of the shape are looked for ahead
     bool staticsValid_ = false;          ///< poses and boxes of static bodies are computed
 };

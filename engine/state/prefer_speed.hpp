@@ -24,7 +24,6 @@ void preferSpeed(WorldDef<S>& def) {
     def.boxMargin = Real(0.05);
     def.broadPhase = "wide_tree";
     def.speculativeDistance = Real(5e-3);
-    def.speculativeMotion = Real(1);
     def.relinearizedJoints = false;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How what was measured grows with the size of a scene or part.
+// Growth of measured times, counts and memory with the size of a scene or part.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ namespace rigor::validation {
 struct Growth {
     std::string part, name, engine, sizeUnit;
     int threads = 1;
-    double from = 0.0, to = 0.0;                      ///< sizes, from < to
-    double time = 0.0;                                ///< of the medians, by the clock of the larger case
+    double from = 0.0, to = 0.0;  ///< sizes, from < to
+    double time = 0.0;            ///< exponent of the medians, by the clock of the larger case
     std::optional<double> longest, contacts, memory;  ///< longest step, contacts, what the world took
 };
 

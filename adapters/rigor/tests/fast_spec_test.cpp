@@ -28,14 +28,13 @@ TEST(FastPreset, IsTheMatchedOneWithWhatPreferSpeedSets) {
     EXPECT_EQ(numberSetting(fast, "reuse_distance"), wanted.cacheTolerance);
     EXPECT_EQ(numberSetting(fast, "box_margin"), wanted.boxMargin);
     EXPECT_EQ(numberSetting(fast, "speculative_distance"), wanted.speculativeDistance);
-    EXPECT_EQ(numberSetting(fast, "speculative_motion"), wanted.speculativeMotion);
     EXPECT_EQ(textSetting(fast, "curved_joints") == "on", wanted.relinearizedJoints);
 
     Settings others = resolveSettings(parseSpec("rigor:preset=matched"), *engine);
     int changed = 0;
     for (auto& [key, value] : others)
         if (key != "preset" && value != fast.at(key)) ++changed;
-    EXPECT_EQ(changed, 10) << "no more than the ten compared above";
+    EXPECT_EQ(changed, 9) << "no more than the nine compared above";
 }
 
 TEST(FastPreset, IsNamedInTheReadme) {

@@ -17,7 +17,7 @@ int main() {
     const BodyId base = world.addBody(place);
     ShapeDef<S> surface;
     surface.shape = Box<S>{{5, 0.1, 0.5}};
-    surface.surfaceVelocity.v = {1.5, 0, 0};  // of the surface over the body, axes of the body
+    surface.surfaceVelocity.v = {1.5, 0, 0};  // velocity of the surface over the body, axes of the body
     const ShapeId belt = world.addShape(base, surface);
     place.type = BodyType::Dynamic;
     place.pose.p = {-2, 0.3, 0};

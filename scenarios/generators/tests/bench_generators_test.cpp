@@ -262,7 +262,7 @@ TEST(Repeat, CopiesBodiesAndJointsWithTheirNames) {
             }
     EXPECT_THAT(
         problemOf(3,
-                  R"({"repeat": {"name": "c", "counts": [100, 100, 2], "spacing": [4, 0, 7], "generator": )" +
+                  R"({"repeat": {"name": "c", "counts": [100, 100, 7], "spacing": [4, 0, 7], "generator": )" +
                       chain + "}}"),
         testing::HasSubstr("[generator.size]"));
     EXPECT_THAT(

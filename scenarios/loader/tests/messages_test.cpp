@@ -138,7 +138,7 @@ const BrokenFile kBrokenFiles[] = {
      R"(bad.json:3: /name: found string "base scene", expected name of 1 to 64 letters, digits, '_', '-', '.' [value.name])"},
     {"HugeGenerator", R"("joints": [)",
      R"("generators": [ { "grid": { "name": "g", "counts": [1000, 1000, 1000], "spacing": [1, 1, 1], "body": {} } } ], "joints": [)",
-     R"(bad.json:16: /generators/0/grid/counts: found array of 3, expected at most 50000 bodies [generator.size])"},
+     R"(bad.json:16: /generators/0/grid/counts: found array of 3, expected at most 200000 bodies [generator.size])"},
     {"UnknownGenerator", R"("joints": [)", R"("generators": [ { "tower": {} } ], "joints": [)",
      R"(bad.json:16: /generators/0: found object with 1 keys, expected an object with one key among grid, pyramid, pile, chain, container, group, hull_pile, net, rain, repeat, tumbler [generator.unknown])"},
 };
