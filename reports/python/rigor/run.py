@@ -66,7 +66,7 @@ class Run:
         if name in ("engines", "orders", "fairness") and "position" in frame:
             return frame.sort_values("position").drop(columns="position").reset_index(drop=True)
         if {"case_id", "ordinal"}.issubset(frame.columns) and not name.startswith("bench_"):
-            return self._with_case(frame)
+            return self._with_case(parse_lists(frame) if name == "audit" else frame)
         return frame
 
     def _with_case(self, frame: pd.DataFrame) -> pd.DataFrame:
@@ -111,7 +111,10 @@ class Run:
 
     @property
     def audit(self) -> pd.DataFrame:
-        """Contacts that the collision engines found in the poses of each case, against the exact oracle."""
+        """Contacts that the collision engines found in the poses of each case, against the exact oracle.
+
+        ``findings`` are the worst of each kind, as dictionaries (validation/results/README.md).
+        """
         return self.table("audit")
 
     @property

@@ -21,10 +21,10 @@ import pandas as pd
 from .errors import DamagedStore, NewerFormat, NotARun
 
 #: The newest schema of results.sqlite that this package knows (validation/results/store.hpp).
-NEWEST_SCHEMA = 10
+NEWEST_SCHEMA = 11
 
 _APPLICATION_ID = 0x52494752
-_LISTS = {"isolates", "tags", "observed", "metrics", "time_steps"}
+_LISTS = {"isolates", "tags", "observed", "metrics", "time_steps", "findings"}
 _Result = TypeVar("_Result")
 
 
