@@ -132,7 +132,7 @@ class Engine {
 };
 
 /// Raised with every change of this folder's headers or of scenarios/model that an adapter could notice.
-inline constexpr int kAdapterAbi = 7;
+inline constexpr int kAdapterAbi = 8;
 
 struct Module {
     int abi = 0;

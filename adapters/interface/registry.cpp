@@ -8,32 +8,96 @@
 #include <cstdlib>
 #include <set>
 
+#include "adapters/interface/guest.hpp"
 #include "scenarios/model/nearest.hpp"
 
 namespace rigor::adapter {
 namespace {
 
 constexpr const char* kPrefix = "rigor_adapter_";
-constexpr const char* kSuffix = ".so";
+constexpr const char* kModule = ".so";
+constexpr const char* kManifest = ".json";
+constexpr const char* kGuestHostFile = "rigor_guest_host.so";
 
-/// "rigor_adapter_bullet.f32.so" -> {"bullet", "f32"}; empty name when it is no module.
-std::pair<std::string, std::string> moduleName(const std::filesystem::path& file) {
+/// "rigor_adapter_bullet.f32.so" -> {"bullet", "f32"}; empty name when it is no file of an engine with this suffix.
+std::pair<std::string, std::string> engineName(const std::filesystem::path& file, const std::string& suffix) {
     std::string name = file.filename().string();
-    const std::string prefix = kPrefix, suffix = kSuffix;
+    const std::string prefix = kPrefix;
     if (name.size() <= prefix.size() + suffix.size() || !name.starts_with(prefix) || !name.ends_with(suffix))
         return {};
     name = name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
     const auto dot = name.find('.');
     return {name.substr(0, dot), dot == std::string::npos ? "" : name.substr(dot + 1)};
 }
+std::pair<std::string, std::string> moduleName(const std::filesystem::path& file) {
+    return engineName(file, kModule);
+}
 
-std::vector<std::filesystem::path> modulesIn(const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder, const char* suffix) {
     std::vector<std::filesystem::path> files;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-        if (!moduleName(entry.path()).first.empty()) files.push_back(entry.path());
+        if (!engineName(entry.path(), suffix).first.empty()) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
+}
+std::vector<std::filesystem::path> modulesIn(const std::filesystem::path& folder) {
+    return filesIn(folder, kModule);
+}
+
+/// Every manifest on the path: of one name, the first.
+std::map<std::string, std::filesystem::path> manifests() {
+    std::map<std::string, std::filesystem::path> found;
+    for (const auto& folder : adapterPath())
+        for (const auto& file : filesIn(folder, kManifest))
+            found.emplace(engineName(file, kManifest).first, file);
+    return found;
+}
+
+/// A manifest that can not be read counts as installed: what is wrong with it is said when it is opened.
+bool isInstalled(const std::filesystem::path& manifest) {
+    try {
+        return readGuestManifest(manifest).missing().empty();
+    } catch (const BadInput&) {
+        return true;
+    }
+}
+
+std::string absentText(const GuestManifest& guest) {
+    return "not installed: " + guest.missing() + " is missing" +
+           (guest.install.empty() ? "" : "; to install it: " + guest.install);
+}
+
+void* openLibrary(const std::filesystem::path& file) {
+    void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr) throw std::runtime_error(std::string("cannot load the module: ") + dlerror());
+    return handle;
+}
+
+/// The description that an open module exports, its version checked; closes the module where it is none.
+template <class Described>
+const Described& entryOf(void* handle, const std::filesystem::path& file, const char* symbol) {
+    using Entry = const Described* (*)();
+    const auto entry = reinterpret_cast<Entry>(dlsym(handle, symbol));
+    if (entry == nullptr) {
+        dlclose(handle);
+        throw std::runtime_error(file.string() + ": no entry point " + symbol);
+    }
+    const Described* described = entry();
+    if (described->abi != kAdapterAbi) {
+        const int abi = described->abi;
+        dlclose(handle);
+        throw std::runtime_error(file.string() + ": built for adapter interface " + std::to_string(abi) +
+                                 ", this program has " + std::to_string(kAdapterAbi));
+    }
+    return *described;
+}
+
+std::filesystem::path guestHost() {
+    for (const auto& folder : adapterPath())
+        if (std::filesystem::exists(folder / kGuestHostFile)) return folder / kGuestHostFile;
+    throw std::runtime_error(std::string("guests need ") + kGuestHostFile +
+                             ", which is in no folder of the path");
 }
 
 }  // namespace
@@ -61,7 +125,16 @@ std::vector<std::string> availableEngines() {
     std::set<std::string> names;
     for (const auto& folder : adapterPath())
         for (const auto& file : modulesIn(folder)) names.insert(moduleName(file).first);
+    for (const auto& [name, file] : manifests())
+        if (isInstalled(file)) names.insert(name);
     return {names.begin(), names.end()};
+}
+
+std::vector<GuestManifest> absentGuests() {
+    std::vector<GuestManifest> absent;
+    for (const auto& [name, file] : manifests())
+        if (!isInstalled(file)) absent.push_back(readGuestManifest(file));
+    return absent;
 }
 
 std::vector<std::string> availablePrecisions(const std::string& engine) {
@@ -85,6 +158,11 @@ std::filesystem::path moduleFor(const EngineSpec& spec) {
             if (variant.empty() && plain.empty()) plain = file;
         }
     if (!plain.empty()) return plain;
+    const auto guests = manifests();
+    if (const auto guest = guests.find(spec.engine); guest != guests.end()) {
+        if (isInstalled(guest->second)) return guest->second;
+        throw BadInput("engine '" + spec.engine + "' is " + absentText(readGuestManifest(guest->second)));
+    }
     std::string known;
     const auto names = availableEngines();
     for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
@@ -93,22 +171,15 @@ std::filesystem::path moduleFor(const EngineSpec& spec) {
 }
 
 LoadedEngine::LoadedEngine(const std::filesystem::path& module) {
-    handle_ = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (handle_ == nullptr) throw std::runtime_error(std::string("cannot load the module: ") + dlerror());
-    using Entry = const Module* (*)();
-    const auto entry = reinterpret_cast<Entry>(dlsym(handle_, "rigorAdapter"));
-    if (entry == nullptr) {
-        dlclose(handle_);
-        throw std::runtime_error(module.string() + ": no entry point rigorAdapter");
+    if (module.extension() == kManifest) {
+        const GuestManifest manifest = readGuestManifest(module);
+        const auto host = guestHost();
+        handle_ = openLibrary(host);
+        engine_ = entryOf<GuestHost>(handle_, host, "rigorGuestHost").open(manifest);
+        return;
     }
-    const Module* described = entry();
-    if (described->abi != kAdapterAbi) {
-        const int abi = described->abi;
-        dlclose(handle_);
-        throw std::runtime_error(module.string() + ": built for adapter interface " + std::to_string(abi) +
-                                 ", this program has " + std::to_string(kAdapterAbi));
-    }
-    engine_ = described->create();
+    handle_ = openLibrary(module);
+    engine_ = entryOf<Module>(handle_, module, "rigorAdapter").create();
 }
 
 LoadedEngine::LoadedEngine(LoadedEngine&& other) noexcept

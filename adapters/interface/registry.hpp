@@ -35,11 +35,12 @@ std::vector<EngineSpec> parseSpecList(const std::string& text);
 /// Folders that are searched for modules, in this order: RIGOR_ADAPTER_PATH (colon separated), then
 /// `adapters/` beside the binary's folder and in it.
 std::vector<std::filesystem::path> adapterPath();
-/// Engine names with a module on the path, sorted.
+/// Engine names with a module, or a guest that is installed (guest.hpp), on the path, sorted.
 std::vector<std::string> availableEngines();
 /// Precisions that an engine has as modules of their own ("f32" beside the plain module).
 std::vector<std::string> availablePrecisions(const std::string& engine);
-/// The module file for a spec (its precision picks the variant). Throws BadInput naming the known engines.
+/// The module file for a spec (its precision picks the variant), or the manifest of a guest. Throws BadInput naming
+/// the known engines, or what a guest lacks.
 std::filesystem::path moduleFor(const EngineSpec& spec);
 
 /// A module kept open as long as the engine lives.

@@ -82,6 +82,9 @@ struct StepCounters {
     std::int64_t pairs = -1, contacts = -1, islands = -1, solverIterations = -1;
     double residual = -1.0;                      ///< residual of the velocity solver, engine's own measure
     std::map<std::string, double> phaseSeconds;  ///< wall time by phase name, where the engine measures it
+    /// Wall time of the step by the engine's own clock, where the caller's would measure an exchange between two
+    /// processes as well; -1 otherwise.
+    double stepSeconds = -1.0;
 };
 
 /// Free-flight scheme of an engine, so that scheme-exact references know what an ideal run of it would give.
@@ -141,6 +144,9 @@ struct EngineInfo {
     std::string buildNotes;  ///< flags that matter: "asserts off, SSE2"
     /// Version of the package it was built against, where that is another than the library says; "" else.
     std::string package = {};
+    /// Label of the engine's timings where they are not those of native code in this process: "guest", "guest, wasm";
+    /// "" otherwise.
+    std::string clock = {};
 };
 
 /// Key/value pairs of a spec after defaults and the preset were applied; every key of Option is present.

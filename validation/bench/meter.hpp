@@ -29,6 +29,7 @@ class CountingStopwatch {
         counted_.calls += after->calls - before->calls;
         counted_.bytes += after->bytes - before->bytes;
     }
+    void correctLast(double seconds) { watch_.correctLast(seconds); }
     const ClockSamples& samples() const { return watch_.samples(); }
 
     /// Calls and bytes of an operation, in the mean.

@@ -92,7 +92,9 @@ std::vector<BenchWork> planScenes(const SceneRequest& request,
             for (const auto& threaded : threadedSpecs(spec, request.preset, request.threads, *engine)) {
                 PlannedBench planned;
                 planned.part = kScenePart;
-                planned.name = scene.scenario.name;
+                // Times of another clock are a group of their own: no ratio joins them with the others.
+                const std::string& clock = engine->info.clock;
+                planned.name = scene.scenario.name + (clock.empty() ? "" : " (" + clock + ")");
                 planned.engine = threaded.name;
                 planned.threads = threaded.threads;
                 planned.size = movingBodies(scene.scenario);

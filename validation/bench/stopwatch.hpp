@@ -26,6 +26,11 @@ class Stopwatch {
         samples_.wall.push_back((wallEnd - wall) / operations);
         samples_.cpu.push_back((cpuEnd - cpu) / operations);
     }
+    /// Replaces the last times by those of an engine's own clock (adapter::StepCounters::stepSeconds).
+    void correctLast(double seconds) {
+        samples_.wall.back() = seconds;
+        samples_.cpu.back() = seconds;
+    }
     void reserve(std::size_t count) {
         samples_.wall.reserve(count);
         samples_.cpu.reserve(count);

@@ -12,6 +12,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "adapters/interface/engine_failure.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/audit.hpp"
@@ -45,6 +46,20 @@ CaseRow refusedRow(const json& request, const adapter::EngineSpec& spec, Outcome
     row.outcome = outcome;
     row.reason = reason;
     return row;
+}
+
+Outcome outcomeOf(const adapter::EngineFailure& failure) {
+    switch (failure.kind()) {
+        case adapter::EngineFailure::Kind::Died:
+            return Outcome::Crashed;
+        case adapter::EngineFailure::Kind::Silent:
+            return Outcome::Timeout;
+        case adapter::EngineFailure::Kind::Memory:
+            return Outcome::OutOfMemory;
+        case adapter::EngineFailure::Kind::Protocol:
+            break;
+    }
+    return Outcome::Error;
 }
 
 /// The ledger of a refused case is what was refused.
@@ -125,14 +140,18 @@ int caseChild(const std::filesystem::path& requestFile, const ReferenceMaker& ma
                                      .scenario;
     const adapter::EngineSpec spec = adapter::parseSpec(request->at("spec").get<std::string>());
     CaseRow row;
+    bool ran = false;
     try {
         row = runRequested(*request, s, spec, make);
+        ran = true;
     } catch (const adapter::Unsupported& error) {
         row = refusedRow(*request, spec, error);
+    } catch (const adapter::EngineFailure& failure) {
+        row = refusedRow(*request, spec, outcomeOf(failure), failure.what());
     } catch (const std::exception& error) {
         row = refusedRow(*request, spec, Outcome::Error, error.what());
     }
-    if (row.outcome == Outcome::Unsupported || row.outcome == Outcome::Error) judgeCase(row, s);
+    if (!ran) judgeCase(row, s);
     writeJsonFile(request->at("answer").get<std::string>(), caseToJson(row));
     return 0;
 }

@@ -55,8 +55,8 @@ json presetsToJson(const std::vector<adapter::Preset>& presets) {
 
 void readDescription(const json& j, EngineDescription& d) {
     // The name is the one its module goes by: specs and reports use that.
-    d.info = {d.info.name,   j.at("version"),     j.at("precision"),
-              j.at("title"), j.at("build_notes"), j.at("package")};
+    d.info = {d.info.name,         j.at("version"), j.at("precision"), j.at("title"),
+              j.at("build_notes"), j.at("package"), j.at("clock")};
     d.capabilities = adapter::capabilitiesFromJson(j.at("capabilities"));
     for (const json& o : j.at("options")) d.options.push_back(optionFromJson(o));
     for (const json& p : j.at("presets"))
@@ -100,6 +100,7 @@ int describeChild(const std::string& engine, const std::filesystem::path& answer
                            {"title", info.title},
                            {"build_notes", info.buildNotes},
                            {"package", info.package},
+                           {"clock", info.clock},
                            {"capabilities", adapter::capabilitiesToJson<json>(loaded->capabilities())},
                            {"options", std::move(options)},
                            {"presets", presetsToJson(adapter::ownPresets(*loaded))}});

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -35,7 +36,10 @@ constexpr bool kSanitized = false;
     struct rlimit none {};
     setrlimit(RLIMIT_CORE, &none);
     if (memoryMiB > 0) {
-        const struct rlimit limit { memoryMiB << 20, memoryMiB << 20 };
+        // The hard limit stays: an engine's own process may need addresses that it does not use.
+        struct rlimit limit {};
+        getrlimit(RLIMIT_AS, &limit);
+        limit.rlim_cur = std::min<rlim_t>(memoryMiB << 20, limit.rlim_max);
         setrlimit(RLIMIT_AS, &limit);
     }
     const int null = open("/dev/null", O_RDONLY);

@@ -46,6 +46,7 @@ TEST(Tree, EveryFolderHasAReadme) {
                                "adapters/box2d",
                                "adapters/ode",
                                "adapters/fcl",
+                               "adapters/guest",
                                "adapters/conformance",
                                "validation/references",
                                "validation/metrics",
