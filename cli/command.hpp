@@ -56,6 +56,8 @@ void addImport(CLI::App& app, Action& action);
 void addDraw(CLI::App& app, Action& action);
 void addFit(CLI::App& app, Action& action);
 void addView(CLI::App& app, Action& action);
+void addConform(CLI::App& app, Action& action);
+void addNew(CLI::App& app, Action& action);
 
 /// This program's own file.
 std::filesystem::path ownBinary();

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "adapters/interface/capability_fields.hpp"
+#include "adapters/interface/guest.hpp"
 #include "adapters/interface/missing.hpp"
 #include "adapters/interface/registry.hpp"
 #include "cli/command.hpp"
@@ -47,6 +48,23 @@ Json capabilitiesJson(const adapter::Capabilities& c) {
     return json;
 }
 
+/// A guest that is not installed, with the keys of one that is.
+Json absentJson(const adapter::GuestManifest& guest) {
+    const std::string how = guest.install.empty() ? guest.missing() + " is missing" : guest.install;
+    return {{"name", guest.name},
+            {"title", guest.title},
+            {"version", ""},
+            {"package", ""},
+            {"precision", guest.precision},
+            {"precisions", Json::array()},
+            {"presets", Json::array()},
+            {"build", ""},
+            {"clock", ""},
+            {"problem", "not installed (" + how + ")"},
+            {"capabilities", Json::object()},
+            {"options", Json::array()}};
+}
+
 Json engines() {
     Json list = Json::array();
     for (const auto& name : adapter::availableEngines()) {
@@ -59,12 +77,14 @@ Json engines() {
         json["precisions"] = d.precisions;
         json["presets"] = adapter::presetNames(d.presets);
         json["build"] = d.info.buildNotes;
+        json["clock"] = d.info.clock;
         json["problem"] = d.problem;
         json["capabilities"] = capabilitiesJson(d.capabilities);
         json["options"] = Json::array();
         for (const auto& option : d.options) json["options"].push_back(optionJson(option, d.presets));
         list.push_back(std::move(json));
     }
+    for (const auto& guest : adapter::absentGuests()) list.push_back(absentJson(guest));
     return list;
 }
 

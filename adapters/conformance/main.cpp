@@ -13,10 +13,13 @@
 #include <vector>
 
 #include "adapters/conformance/kit.hpp"
+#include "adapters/interface/guest.hpp"
 
 namespace {
 
 using namespace rigor;
+
+constexpr int kSkipped = 77;  ///< exit code for an engine that is not installed
 
 std::vector<std::string> specsOnPath() {
     std::vector<std::string> specs;
@@ -78,6 +81,12 @@ int main(int argc, char** argv) {
             rest.push_back(argv[i]);
     }
     if (spec.empty()) return runAll(argc, argv);
+    const auto absent = adapter::absentGuests();
+    for (const auto& guest : absent)
+        if (guest.name == adapter::parseSpec(spec).engine) {
+            std::fprintf(stderr, "%s is not installed: %s is missing\n", spec.c_str(), guest.missing().c_str());
+            return kSkipped;
+        }
     try {
         conformance::useEngine(spec);
     } catch (const std::exception& e) {

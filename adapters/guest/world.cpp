@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace rigor::guest {
@@ -271,14 +272,29 @@ void GuestWorld::setAll(std::span<const BodyState> states) {
 
 void GuestWorld::save(std::vector<unsigned char>& bytes) const {
     const Frame answer = connection_->call("save", request());
-    bytes = connection_->take("save", [&] { return answer.bytes("snapshot"); });
+    const auto guests = connection_->take("save", [&] { return answer.bytes("snapshot"); });
+    // Forces of the next step have not been sent yet: their count and they stand before the guest's own bytes.
+    const std::uint64_t count = forces_.size();
+    bytes.resize(sizeof count + count * sizeof(double));
+    std::memcpy(bytes.data(), &count, sizeof count);
+    if (count > 0) std::memcpy(bytes.data() + sizeof count, forces_.data(), count * sizeof(double));
+    bytes.insert(bytes.end(), guests.begin(), guests.end());
 }
 
 bool GuestWorld::restore(const std::vector<unsigned char>& bytes) {
+    std::uint64_t count = 0;
+    if (bytes.size() < sizeof count) throw std::runtime_error("a snapshot that is damaged");
+    std::memcpy(&count, bytes.data(), sizeof count);
+    if (count > (bytes.size() - sizeof count) / sizeof(double) || count % 7 != 0)
+        throw std::runtime_error("a snapshot that is damaged");
+    std::vector<double> forces(count);
+    if (count > 0) std::memcpy(forces.data(), bytes.data() + sizeof count, count * sizeof(double));
+    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(sizeof count + count * sizeof(double));
     Frame frame = request();
-    frame.addBytes("snapshot", bytes);
+    frame.addBytes("snapshot", {begin, bytes.end()});
     const Frame answer = connection_->call("restore", std::move(frame));
     if (!connection_->take("restore", [&] { return answer.header.at("restored").get<bool>(); })) return false;
+    forces_ = std::move(forces);
     takeStates("restore", answer);
     return true;
 }

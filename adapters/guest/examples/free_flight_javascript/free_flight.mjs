@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The smallest guest: bodies that fly freely and touch nothing, by symplectic Euler and turns at constant velocity.
-const sdk = process.env.RIGOR_SDK ?? new URL('../../sdk', import.meta.url).pathname;
-const rg = await import(`${sdk}/rigor_guest.mjs`);
+import { existsSync } from 'node:fs';
+
+const beside = new URL('rigor_guest.mjs', import.meta.url);
+const rg = await import(existsSync(beside) ? beside : new URL('../../sdk/rigor_guest.mjs', import.meta.url));
 
 class FreeFlightWorld extends rg.World {
     scheme = 'symplectic_euler';

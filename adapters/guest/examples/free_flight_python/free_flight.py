@@ -4,7 +4,8 @@
 import os
 import sys
 
-sys.path.insert(0, os.environ.get("RIGOR_SDK", os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../sdk")))
+here = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [here, os.path.join(here, "../../sdk")]
 import rigor_guest as rg
 
 

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// `rigor new engine`: a folder with an engine that runs at once, bodies in free flight, to be continued. Its files are
+// the smallest examples of the tree.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "cli/command.hpp"
+
+namespace rigor::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewEngineArguments {
+    std::string name, language = "python";
+    fs::path folder;
+};
+
+/// A file of the tree and its name in the new folder, in which NAME stands for the engine's.
+struct Copy {
+    std::string from, to;
+};
+struct Template {
+    const char* language;
+    const char* example;  ///< name of the engine in the files
+    std::vector<Copy> files;
+    const char* next;  ///< command that comes next, with NAME and FOLDER
+};
+
+const std::vector<Template>& templates() {
+    static const std::vector<Template> table{
+        {"python",
+         "free_flight_python",
+         {{"adapters/guest/sdk/rigor_guest.py", "rigor_guest.py"},
+          {"adapters/guest/examples/free_flight_python/free_flight.py", "NAME.py"},
+          {"adapters/guest/examples/free_flight_python/rigor_adapter_free_flight_python.json",
+           "rigor_adapter_NAME.json"}},
+         "RIGOR_ADAPTER_PATH=FOLDER rigor conform NAME"},
+        {"javascript",
+         "free_flight_javascript",
+         {{"adapters/guest/sdk/rigor_guest.mjs", "rigor_guest.mjs"},
+          {"adapters/guest/examples/free_flight_javascript/free_flight.mjs", "NAME.mjs"},
+          {"adapters/guest/examples/free_flight_javascript/rigor_adapter_free_flight_javascript.json",
+           "rigor_adapter_NAME.json"}},
+         "RIGOR_ADAPTER_PATH=FOLDER rigor conform NAME"},
+        {"cpp",
+         "free_flight",
+         {{"adapters/conformance/examples/free_flight.cpp", "NAME.cpp"},
+          {"adapters/conformance/examples/CMakeLists.txt.in", "CMakeLists.txt"}},
+         "cmake -S FOLDER -B FOLDER/build && cmake --build FOLDER/build && RIGOR_ADAPTER_PATH=FOLDER/build "
+         "rigor "
+         "conform NAME"}};
+    return table;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+    return text;
+}
+
+/// A name in snake_case, as specs and files have it.
+void checkEngineName(const std::string& name) {
+    const bool letters = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_';
+    });
+    if (name.empty() || !letters || std::islower(static_cast<unsigned char>(name.front())) == 0)
+        throw std::invalid_argument("the name of an engine: found '" + name +
+                                    "', expected lower-case letters, digits and '_', a letter first");
+}
+
+const Template& templateFor(const std::string& language) {
+    std::string known;
+    for (const Template& t : templates()) {
+        if (language == t.language) return t;
+        known += (known.empty() ? "" : ", ") + std::string(t.language);
+    }
+    throw std::invalid_argument("--language: found '" + language + "', expected one of " + known);
+}
+
+int newEngine(const NewEngineArguments& a) {
+    checkEngineName(a.name);
+    const Template& t = templateFor(a.language);
+    const fs::path folder = a.folder.empty() ? fs::path(a.name) : a.folder;
+    if (fs::exists(folder) && !fs::is_empty(folder))
+        throw std::invalid_argument(folder.string() + " is there already, and not empty");
+    fs::create_directories(folder);
+    for (const Copy& copy : t.files) {
+        const fs::path from = fs::path(RIGOR_SOURCE_DIR) / copy.from,
+                       to = folder / replaced(copy.to, "NAME", a.name);
+        std::ifstream in(from);
+        if (!in) throw std::runtime_error("cannot read " + from.string());
+        std::ostringstream text;
+        text << in.rdbuf();
+        std::string content = text.str();
+        if (!copy.to.starts_with("rigor_guest.")) {
+            content = replaced(std::move(content), t.example, a.name);
+            content = replaced(std::move(content), "free_flight.py", a.name + ".py");
+            content = replaced(std::move(content), "free_flight.mjs", a.name + ".mjs");
+            content = replaced(std::move(content), "@RIGOR_SOURCE_DIR@", RIGOR_SOURCE_DIR);
+        }
+        std::ofstream out(to);
+        out << content;
+        if (!out.flush()) throw std::runtime_error("cannot write " + to.string());
+        std::printf("%s\n", to.string().c_str());
+    }
+    const std::string next = replaced(replaced(t.next, "NAME", a.name), "FOLDER", folder.string());
+    std::printf("next: %s\n", next.c_str());
+    return kOk;
+}
+
+}  // namespace
+
+void addNew(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<NewEngineArguments>();
+    auto* command = app.add_subcommand("new", "Write the beginning of something new");
+    command->require_subcommand(1);
+    auto* engine =
+        command->add_subcommand("engine", "A folder with an engine in free flight, to be continued");
+    engine->add_option("name", arguments->name, "Name of the engine, in snake_case")->required();
+    engine->add_option("--language", arguments->language, "python, javascript (guests) or cpp (module)")
+        ->capture_default_str();
+    engine->add_option("--folder", arguments->folder, "Where to write it; default: a folder of its name");
+    engine->callback([arguments, &action] { action = [arguments] { return newEngine(*arguments); }; });
+}
+
+}  // namespace rigor::cli
