@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The Rigor authors
-"""A guest with one fault: faulty_guest.py SDK_FOLDER FAULT. Its one body does not move; its answers are right but for
+"""A guest with one fault: faulty_guest.py SDK_FOLDER FAULT [NAME]. Its one body does not move; its answers are right but for
 the fault, which is in the answer to `hello` or, from the third one on, to `step`."""
 import math
 import os
@@ -57,7 +57,7 @@ class StillWorld(rg.World):
 
 
 class Faulty(rg.Guest):
-    name = title = "faulty"
+    name = title = sys.argv[3] if len(sys.argv) > 3 else "faulty"
     version = "" if FAULT == "no_version" else "1"
     capabilities = {"dynamics": True, "dimensions": [3], "shapes": ["sphere", "half_space", "box"]}
     if FAULT == "unknown_capability":

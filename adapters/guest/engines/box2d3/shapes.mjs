@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+import * as rg from '../../sdk/rigor_guest.mjs';
+import { angleOf, B, withRot, withVec2 } from './library.mjs';
+
+const kMostVertices = 8;
+
+/** Half the side of the box that stands for a half-plane: no body gets farther in free flight [m]. */
+export function reachOf(scenario) {
+    const t = scenario.duration;
+    const fall = 0.5 * rg.norm(scenario.gravity) * t * t;
+    const farthest = scenario.bodies.map((body) => rg.norm(body.position) + rg.norm(body.velocity) * t + fall);
+    return Math.min(1000, Math.max(20, 2 * Math.max(...farthest)));
+}
+
+function polygonOf(points, user) {
+    if (points.length > kMostVertices)
+        throw new rg.Unsupported(
+            `polygon of ${points.length} vertices`,
+            'Box2D manual, "Polygons": at most B2_MAX_POLYGON_VERTICES, 8',
+            user,
+        );
+    const vectors = points.map(([x, y]) => new B.b2Vec2(x, y));
+    const hull = B.b2ComputeHull(vectors);
+    const polygon = hull.count === points.length ? B.b2MakePolygon(hull, 0) : null;
+    hull.delete();
+    for (const v of vectors) v.delete();
+    if (!polygon) throw new rg.BadInput(`${user}: Box2D makes no polygon of these vertices`);
+    return polygon;
+}
+
+const corners = ([x, y]) => [
+    [-x, -y, 0],
+    [x, -y, 0],
+    [x, y, 0],
+    [-x, y, 0],
+];
+
+/** Adds a shape to a body. */
+export function addShape(body, shape, def, reach, user) {
+    const place = (p) => rg.sum(shape.position, rg.rotate(shape.orientation, p));
+    const polygon = (points) => {
+        const made = polygonOf(points, user);
+        const id = B.b2CreatePolygonShape(body, def, made);
+        made.delete();
+        return id;
+    };
+    switch (shape.shape) {
+        case 'circle': {
+            const circle = new B.b2Circle();
+            withVec2(shape.position, (center) => {
+                circle.center = center;
+            });
+            circle.radius = shape.radius;
+            return B.b2CreateCircleShape(body, def, circle);
+        }
+        case 'capsule': {
+            const capsule = new B.b2Capsule();
+            withVec2(place([0, -shape.half_length, 0]), (p) => {
+                capsule.center1 = p;
+            });
+            withVec2(place([0, shape.half_length, 0]), (p) => {
+                capsule.center2 = p;
+            });
+            capsule.radius = shape.radius;
+            return B.b2CreateCapsuleShape(body, def, capsule);
+        }
+        case 'segment': {
+            const segment = new B.b2Segment();
+            withVec2(place(shape.a), (p) => {
+                segment.point1 = p;
+            });
+            withVec2(place(shape.b), (p) => {
+                segment.point2 = p;
+            });
+            return B.b2CreateSegmentShape(body, def, segment);
+        }
+        case 'half_plane': {
+            const center = place(rg.scaled(shape.offset - reach, shape.normal));
+            const angle = angleOf(shape.orientation) + Math.atan2(shape.normal[1], shape.normal[0]);
+            const box = withVec2(center, (c) => withRot(angle, (q) => B.b2MakeOffsetBox(reach, reach, c, q)));
+            const id = B.b2CreatePolygonShape(body, def, box);
+            box.delete();
+            return id;
+        }
+        case 'box':
+            return polygon(corners(shape.half_extents).map(place));
+        default:
+            return polygon(shape.vertices.map(place));
+    }
+}

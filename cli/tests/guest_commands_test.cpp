@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Guests as a user meets them: a new engine in every language, the conformance kit, and the commands that take engines.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "cli/tests/program.hpp"
+
+namespace rigor::cli_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class GuestCommands : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string name = testing::TempDir() + "guest-commands-XXXXXX";
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        folder_ = name;
+        before_ = getenv("RIGOR_ADAPTER_PATH") == nullptr ? "" : getenv("RIGOR_ADAPTER_PATH");
+    }
+    void TearDown() override {
+        if (before_.empty())
+            unsetenv("RIGOR_ADAPTER_PATH");
+        else
+            setenv("RIGOR_ADAPTER_PATH", before_.c_str(), 1);
+        fs::remove_all(folder_);
+    }
+    /// Writes a new engine and puts it on the path.
+    void write(const std::string& name, const std::string& language) const {
+        const auto written = rigor("new engine " + name + " --language " + language + " --folder " +
+                                   (folder_ / name).string());
+        ASSERT_EQ(written.code, 0) << written.out;
+        EXPECT_THAT(written.out, HasSubstr("conform " + name));
+        setenv("RIGOR_ADAPTER_PATH", (folder_ / name).c_str(), 1);
+    }
+    fs::path folder_;
+    std::string before_;
+};
+
+TEST_F(GuestCommands, ANewEngineOfEveryGuestLanguageConforms) {
+    for (const std::string language : {"python", "javascript"}) {
+        SCOPED_TRACE(language);
+        const std::string name = "mine_in_" + language;
+        write(name, language);
+        const auto first = rigor("conform " + name + " --only description,build,motion");
+        EXPECT_EQ(first.code, 0) << first.out;
+        EXPECT_THAT(first.out, HasSubstr("conforms: all "));
+        const auto listed = rigor("list engines");
+        EXPECT_THAT(listed.out, HasSubstr(name));
+        const auto validated = rigor("validate free_flight --engines " + name + " --json --out " +
+                                     (folder_ / "run").string() + language);
+        EXPECT_THAT(validated.out, HasSubstr("\"engine\": \"" + name)) << validated.out;
+    }
+}
+
+TEST_F(GuestCommands, ConformSaysWhatFails) {
+    write("mine", "python");
+    const fs::path program = folder_ / "mine/mine.py";
+    std::ifstream in(program);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string right = "v + dt * (g + f";
+    const auto at = text.find(right);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, right.size(), "v + dt * (0.9 * g + f");
+    std::ofstream(program) << text;
+    const auto conform = rigor("conform mine --only motion");
+    EXPECT_EQ(conform.code, 1);
+    EXPECT_THAT(conform.out, HasSubstr("FAILED Kit/Motion.FreeFlightFollowsTheClosedFormOfTheEnginesScheme"));
+    EXPECT_THAT(conform.out, HasSubstr("does not conform"));
+    EXPECT_EQ(rigor("conform mine --only motions").code, 2);
+}
+
+TEST_F(GuestCommands, ConformTakesModules) {
+    const auto conform = rigor("conform ode --only description,state --markdown");
+    EXPECT_EQ(conform.code, 0) << conform.out;
+    EXPECT_THAT(conform.out, HasSubstr("| section | passed | not claimed | failed |"));
+}
+
+TEST_F(GuestCommands, GuestsThatAreNotInstalledAreOneLine) {
+    std::ofstream(folder_ / "rigor_adapter_absent.json")
+        << R"({"rigor_guest": 1, "protocol": 1, "name": "absent", "title": "An absent engine", "precision": "f64",
+              "command": ["true"], "needs": ["nothing/there"], "install": "get it"})";
+    setenv("RIGOR_ADAPTER_PATH", folder_.c_str(), 1);
+    const auto listed = rigor("list engines");
+    EXPECT_EQ(listed.code, 0);
+    EXPECT_THAT(listed.out, HasSubstr("not installed (get it)"));
+    const auto run = rigor("run free_flight --engine absent");
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.out, HasSubstr("'absent' is not installed"));
+}
+
+TEST_F(GuestCommands, NewRefusesWhatIsNoNameOrIsThere) {
+    EXPECT_EQ(rigor("new engine My-Engine").code, 2);
+    EXPECT_EQ(rigor("new engine mine --language cobol").code, 2);
+    write("mine", "python");
+    EXPECT_EQ(rigor("new engine mine --folder " + (folder_ / "mine").string()).code, 2);
+}
+
+/// The module of the template is compiled as its owner would compile it.
+TEST_F(GuestCommands, ANewEngineInCppConforms) {
+    write("mine_in_cpp", "cpp");
+    const std::string folder = (folder_ / "mine_in_cpp").string();
+    const std::string build = "cmake -S " + folder + " -B " + folder + "/build >/dev/null && cmake --build " +
+                              folder + "/build >" + folder + "/log 2>&1";
+    ASSERT_EQ(std::system(build.c_str()), 0);
+    setenv("RIGOR_ADAPTER_PATH", (folder + "/build").c_str(), 1);
+    const auto conform = rigor("conform mine_in_cpp --only description,build,motion");
+    EXPECT_EQ(conform.code, 0) << conform.out;
+}
+
+}  // namespace
+}  // namespace rigor::cli_test
