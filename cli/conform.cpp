@@ -192,7 +192,7 @@ void printText(const validation::EngineDescription& d, const Counts& counts) {
     std::printf("%s\n", summaryOf(sumOf(counts)).c_str());
 }
 
-/// For the README of the engine's owner.
+/// A summary for the README of the engine, in Markdown.
 void printMarkdown(const validation::EngineDescription& d, const Counts& counts) {
     std::printf(
         "**Rigor conformance kit, %s:** %s.\n\n| section | passed | not claimed | failed "

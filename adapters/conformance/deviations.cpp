@@ -39,6 +39,7 @@ constexpr Deviation kDeviations[] = {
     {"rigor", "f32", "fast", 0, "center_of_mass_line", 1e-4, "rounding of five sub-steps in a step"},
     {"box2d3", "", "", 2, "fixed_sag", 6e-3, "weld joints are soft constraints: 5.6 mm at 1 m and 2 kg"},
     {"rapier3d", "", "", 3, "center_of_mass_line", 1e-4, "rounding of four sub-steps in a step"},
+    {"rapier2d", "", "", 2, "center_of_mass_line", 1e-4, "rounding of four sub-steps in a step"},
     {"fcl", "", "", 0, "half_space_ball_distance_told", 1.0, "no distances from unbounded shapes"},
     {"fcl", "", "", 0, "half_space_box_distance_told", 1.0, "no distances from unbounded shapes"},
     {"fcl", "", "", 0, "half_space_capsule_side_distance_told", 1.0, "no distances from unbounded shapes"},

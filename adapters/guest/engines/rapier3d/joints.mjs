@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import RAPIER from '@dimforge/rapier3d-compat';
 import * as rg from '../../sdk/rigor_guest.mjs';
-import { quatToRapier, toRapier } from './shapes.mjs';
+import { drive } from '../shared/rapier_joints.mjs';
+import { quatToRapier, toRapier } from './vectors.mjs';
 
 /** The rotation that takes x to the unit vector `axis`, and y to whichever normal of it. */
 function frameAlong(axis) {
@@ -40,33 +41,14 @@ const data = {
     slider: () => RAPIER.JointData.prismatic(origin, origin, { x: 1, y: 0, z: 0 }),
 };
 
-/** Adds a joint between two bodies. `poseA`, `poseB`: those of the scenario's bodies at the start. */
-export function addJoint(world, joint, bodyA, bodyB, poseA, poseB) {
-    const created = world.createImpulseJoint(data[joint.type](), bodyA, bodyB, true);
+/** Adds a joint. A side is a body of Rapier and the pose of the scenario's at the start. */
+export function addJoint(world, joint, a, b) {
+    const created = world.createImpulseJoint(data[joint.type](), a.body, b.body, true);
     // One frame in the world, seen from both bodies.
-    const inWorld = rg.quaternionProduct(poseA.orientation, frameAlong(joint.axis_a));
-    const frameIn = (pose) => rg.quaternionProduct(rg.conjugate(pose.orientation), inWorld);
-    created.setLocalFrame1(toRapier(joint.anchor_a), quatToRapier(frameIn(poseA)));
-    created.setLocalFrame2(toRapier(joint.anchor_b), quatToRapier(frameIn(poseB)));
+    const inWorld = rg.quaternionProduct(a.pose.orientation, frameAlong(joint.axis_a));
+    const frameIn = ({ pose }) => quatToRapier(rg.quaternionProduct(rg.conjugate(pose.orientation), inWorld));
+    created.setLocalFrame1(toRapier(joint.anchor_a), frameIn(a));
+    created.setLocalFrame2(toRapier(joint.anchor_b), frameIn(b));
     created.setContactsEnabled(joint.collide_connected);
-    const [axis] = joint.axes;
-    if ((joint.type === 'hinge' || joint.type === 'slider') && axis) drive(created, joint, axis);
-    return created;
-}
-
-function drive(created, joint, axis) {
-    if (axis.mode === 'locked')
-        throw new rg.Unsupported(`a ${joint.type} whose coordinate is locked`, '', `joint '${joint.name}'`);
-    if (axis.mode === 'limited') created.setLimits(axis.lower ?? -1e9, axis.upper ?? 1e9);
-    const spring = axis.stiffness > 0 || axis.damping > 0;
-    if (axis.motor_max_force > 0 && spring)
-        throw new rg.Unsupported(`motor and spring of one ${joint.type}`, '', `joint '${joint.name}'`);
-    created.configureMotorModel(RAPIER.MotorModel.ForceBased);
-    if (spring) created.configureMotorPosition(axis.target, axis.stiffness, axis.damping);
-    if (axis.motor_max_force > 0) {
-        // The acceleration-based model keeps the speed whatever the mass; the force has its bound.
-        created.configureMotorModel(RAPIER.MotorModel.AccelerationBased);
-        created.configureMotorVelocity(axis.motor_speed, 1e6);
-        created.setMotorMaxForce(axis.motor_max_force);
-    }
+    drive(RAPIER, created, joint);
 }

@@ -4,7 +4,9 @@
 // Rapier 3D as a guest: its identity, its features, and its option keys.
 import RAPIER from '@dimforge/rapier3d-compat';
 import * as rg from '../../sdk/rigor_guest.mjs';
-import { RapierWorld } from './world.mjs';
+import { options } from '../shared/rapier_options.mjs';
+import { RapierWorld } from '../shared/rapier_world.mjs';
+import { space } from './space.mjs';
 
 await RAPIER.init();
 
@@ -32,15 +34,6 @@ const capabilities = {
     },
 };
 
-const options = [
-    rg.number('solver_iterations', 1, 1000, 4, 4, 'sub-steps of the solver, numSolverIterations', true),
-    rg.number('internal_pgs_iterations', 1, 1000, 1, 4, 'sweeps in each sub-step, numInternalPgsIterations', true),
-    rg.choice('sleeping', ['on', 'off'], 'on', 'off', 'bodies at rest are put to sleep'),
-    rg.number('allowed_linear_error', 0, 1, 0.005, 0, 'overlap that is left alone [m], normalizedAllowedLinearError'),
-    rg.number('prediction_distance', 0, 1, 0.02, 0.02, 'contacts are found so far ahead [m]'),
-    rg.number('contact_frequency', 1, 1e6, 30, 30, 'natural frequency of the soft contacts [Hz]'),
-];
-
 rg.serve({
     name: 'rapier3d',
     title: 'Rapier 3D',
@@ -49,5 +42,5 @@ rg.serve({
     build_notes: `@dimforge/rapier3d-compat, WebAssembly, Node.js ${process.versions.node}`,
     capabilities,
     options,
-    build: (scenario, dt, settings) => new RapierWorld(scenario, dt, settings),
+    build: (scenario, dt, settings) => new RapierWorld(space, scenario, dt, settings),
 });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What Rapier does otherwise than the scenario asks, as measured (README.md).
+// What Rapier does otherwise than the scenario asks, as measured (rapier3d/README.md).
 import * as rg from '../../sdk/rigor_guest.mjs';
 
 export function ledgerOf({ settings, subSteps, friction, restitution }) {
@@ -13,7 +13,7 @@ export function ledgerOf({ settings, subSteps, friction, restitution }) {
         rg.approximate(
             'velocity_limits',
             'none',
-            '400 m/s and 47.1 rad/s',
+            '400 m/s, and an eighth of a turn in a step',
             'the library bounds velocities and has no setting for it',
         ),
         rg.approximate(

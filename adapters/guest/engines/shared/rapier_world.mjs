@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A scenario in Rapier. Rapier's bodies have the scenario's frames; colliders have no mass, the mass is given.
+// A scenario in Rapier, 2D or 3D. What differs between the two packages is in a `space` (rapier2d/space.mjs,
+// rapier3d/space.mjs). Colliders have no mass, the mass is given.
 import { performance } from 'node:perf_hooks';
-import RAPIER from '@dimforge/rapier3d-compat';
 import * as rg from '../../sdk/rigor_guest.mjs';
-import { combine, solveCoefficients, touchingPairs } from '../shared/coefficients.mjs';
-import { addJoint } from './joints.mjs';
-import { ledgerOf } from './ledger.mjs';
-import { colliderOf, fromRapier, quatFromRapier, quatToRapier, toRapier } from './shapes.mjs';
+import { combine, solveCoefficients, touchingPairs } from './coefficients.mjs';
+import { ledgerOf } from './rapier_ledger.mjs';
 
-const kRules = {
-    average: RAPIER.CoefficientCombineRule.Average,
-    min: RAPIER.CoefficientCombineRule.Min,
-    multiply: RAPIER.CoefficientCombineRule.Multiply,
-    max: RAPIER.CoefficientCombineRule.Max,
-};
+const kRules = { average: 'Average', min: 'Min', multiply: 'Multiply', max: 'Max' };
 const kCombination = 'geometry/collider.d.ts, setFrictionCombineRule: one rule for the coefficients of two colliders';
 
 /** Rapier multiplies a velocity by 1 / (1 + c dt), once a step; c for what is kept of it per second. */
@@ -26,14 +19,15 @@ export class RapierWorld extends rg.World {
     set_states = 'kept';
     snapshots = true;
 
-    constructor(scenario, dt, settings) {
+    constructor(space, scenario, dt, settings) {
         super();
+        this.space = space;
         this.scenario = scenario;
         this.settings = settings;
         this.subSteps = Number(settings.solver_iterations);
         this.dt = dt;
         this.scheme = this.subSteps === 1 ? 'symplectic_euler' : 'unknown';
-        this.world = new RAPIER.World(toRapier(scenario.gravity));
+        this.world = new space.RAPIER.World(space.vector(scenario.gravity));
         this.world.timestep = dt;
         const parameters = this.world.integrationParameters;
         parameters.numSolverIterations = this.subSteps;
@@ -45,7 +39,9 @@ export class RapierWorld extends rg.World {
         this.pushed = new Set();
         this.solvePairs();
         this.hooks = this.hooksOf();
-        this.events = this.hooks && new RAPIER.EventQueue(true); // a step without one calls no hooks
+        this.events = this.hooks && new space.RAPIER.EventQueue(true); // a step without one calls no hooks
+        // Rapier's bodies may be turned against the scenario's from the start.
+        this.frames = scenario.bodies.map((body) => space.frameOf(body));
         this.handles = scenario.bodies.map((body, i) => this.addBody(body, i).handle);
         for (const joint of scenario.joints) this.addJoint(joint);
         this.poses = this.states();
@@ -77,85 +73,99 @@ export class RapierWorld extends rg.World {
         };
         return {
             filterContactPair: (a, b) =>
-                mayTouch(filterOf(a), filterOf(b)) ? RAPIER.SolverFlags.COMPUTE_IMPULSE : null,
+                mayTouch(filterOf(a), filterOf(b)) ? this.space.RAPIER.SolverFlags.COMPUTE_IMPULSE : null,
             filterIntersectionPair: () => true,
         };
     }
 
-    descOf(body) {
-        if (body.type === 'static') return RAPIER.RigidBodyDesc.fixed();
-        if (body.type === 'kinematic') return RAPIER.RigidBodyDesc.kinematicVelocityBased();
-        const principal = rg.principalAxes(body.inertia);
-        return RAPIER.RigidBodyDesc.dynamic()
-            .setAdditionalMassProperties(
-                body.mass,
-                toRapier(body.center_of_mass),
-                toRapier(principal.moments),
-                quatToRapier(principal.orientation),
-            )
+    descOf(body, frame) {
+        const { RigidBodyDesc } = this.space.RAPIER;
+        if (body.type === 'static') return RigidBodyDesc.fixed();
+        if (body.type === 'kinematic') return RigidBodyDesc.kinematicVelocityBased();
+        return this.space
+            .withMass(RigidBodyDesc.dynamic(), body, frame)
             .setGravityScale(body.gravity_scale)
             .setLinearDamping(dampingFor(body.linear_velocity_kept, this.dt))
             .setAngularDamping(dampingFor(body.angular_velocity_kept, this.dt));
     }
 
     addBody(body, index) {
-        const desc = this.descOf(body)
-            .setTranslation(...body.position)
-            .setRotation(quatToRapier(body.orientation))
+        const { space } = this;
+        const frame = this.frames[index];
+        const desc = this.descOf(body, frame)
+            .setTranslation(...space.components(body.position))
+            .setRotation(space.rotation(this.turnedTo(index, body.orientation)))
             .setCanSleep(this.settings.sleeping === 'on');
-        if (body.type !== 'static') desc.setLinvel(...body.velocity).setAngvel(toRapier(body.angular_velocity));
+        if (body.type !== 'static')
+            desc.setLinvel(...space.components(body.velocity)).setAngvel(space.turn(body.angular_velocity));
         const created = this.world.createRigidBody(desc);
         created.recomputeMassPropertiesFromColliders(); // otherwise done in the first step
         if (!body.collides) return created;
         body.shapes.forEach((shape, k) => {
             const { layers, collides_with } = shape.filter;
-            const collider = colliderOf(shape, `body '${body.name}'`)
+            const rules = space.RAPIER.CoefficientCombineRule;
+            const collider = this.colliderOf(shape, frame, `body '${body.name}'`)
                 .setFriction(this.friction.values[shape.material])
-                .setFrictionCombineRule(kRules[this.friction.rule])
+                .setFrictionCombineRule(rules[kRules[this.friction.rule]])
                 .setRestitution(this.restitution.values[shape.material])
-                .setRestitutionCombineRule(kRules[this.restitution.rule]);
-            if (this.hooks) collider.setActiveHooks(RAPIER.ActiveHooks.FILTER_CONTACT_PAIRS);
+                .setRestitutionCombineRule(rules[kRules[this.restitution.rule]]);
+            if (this.hooks) collider.setActiveHooks(space.RAPIER.ActiveHooks.FILTER_CONTACT_PAIRS);
             else collider.setCollisionGroups(((layers & 0xffff) << 16) | (collides_with & 0xffff));
             this.owners.set(this.world.createCollider(collider, created).handle, [index, k]);
         });
         return created;
     }
 
+    /** Rapier's orientation of a body for one of the scenario's. */
+    turnedTo(index, orientation) {
+        return rg.quaternionProduct(orientation, rg.conjugate(this.frames[index]));
+    }
+
+    colliderOf(shape, frame, user) {
+        const { desc, offset = [0, 0, 0] } = this.space.builders[shape.shape](shape);
+        if (!desc) throw new rg.BadInput(`${user}: Rapier builds no hull of these vertices`);
+        const inBody = rg.sum(shape.position, rg.rotate(shape.orientation, offset));
+        return desc
+            .setTranslation(...this.space.components(rg.rotate(frame, inBody)))
+            .setRotation(this.space.rotation(rg.quaternionProduct(frame, shape.orientation)))
+            .setDensity(0);
+    }
+
     addJoint(joint) {
         const still = { position: [0, 0, 0], orientation: [1, 0, 0, 0] };
         const sideOf = (index) =>
             index < 0
-                ? [this.world.createRigidBody(RAPIER.RigidBodyDesc.fixed()), still]
-                : [this.body(index), this.scenario.bodies[index]];
-        const [bodyA, poseA] = sideOf(joint.body_a);
-        const [bodyB, poseB] = sideOf(joint.body_b);
-        addJoint(this.world, joint, bodyA, bodyB, poseA, poseB);
+                ? { body: this.world.createRigidBody(this.space.RAPIER.RigidBodyDesc.fixed()), pose: still, frame: [1, 0, 0, 0] }
+                : { body: this.body(index), pose: this.scenario.bodies[index], frame: this.frames[index] };
+        this.space.addJoint(this.world, joint, sideOf(joint.body_a), sideOf(joint.body_b));
     }
 
     body(index) {
         return this.world.getRigidBody(this.handles[index]);
     }
 
-    stateOf(body) {
+    stateOf(index) {
+        const { space } = this;
+        const body = this.body(index);
         return [
-            ...fromRapier(body.translation()),
-            ...quatFromRapier(body.rotation()),
-            ...fromRapier(body.linvel()),
-            ...fromRapier(body.angvel()),
+            ...space.fromVector(body.translation()),
+            ...rg.quaternionProduct(space.fromRotation(body.rotation()), this.frames[index]),
+            ...space.fromVector(body.linvel()),
+            ...space.fromTurn(body.angvel()),
         ];
     }
     states() {
-        return this.handles.map((handle) => this.stateOf(this.world.getRigidBody(handle)));
+        return this.handles.map((_, i) => this.stateOf(i));
     }
 
     applyForce(index, force, torque) {
-        this.body(index).addForce(toRapier(force), true);
-        this.body(index).addTorque(toRapier(torque), true);
+        this.body(index).addForce(this.space.vector(force), true);
+        this.body(index).addTorque(this.space.turn(torque), true);
         this.pushed.add(index);
     }
     applyImpulse(index, linear, angular) {
-        this.body(index).applyImpulse(toRapier(linear), true);
-        this.body(index).applyTorqueImpulse(toRapier(angular), true);
+        this.body(index).applyImpulse(this.space.vector(linear), true);
+        this.body(index).applyTorqueImpulse(this.space.turn(angular), true);
     }
 
     step() {
@@ -206,10 +216,11 @@ export class RapierWorld extends rg.World {
                 this.owners.get(c.handle),
             );
             const [inFirst, inSecond] = [this.placeOf(first), this.placeOf(second)];
-            const normal = fromRapier(manifold.normal());
+            const { fromVector } = this.space;
+            const normal = fromVector(manifold.normal());
             for (let k = 0; k < manifold.numContacts(); ++k) {
-                const p = inFirst(fromRapier(manifold.localContactPoint1(k)));
-                const q = inSecond(fromRapier(manifold.localContactPoint2(k)));
+                const p = inFirst(fromVector(manifold.localContactPoint1(k)));
+                const q = inSecond(fromVector(manifold.localContactPoint2(k)));
                 const depth = rg.dot(rg.difference(p, q), normal);
                 if (depth < 0 && !(manifold.contactImpulse(k) > 0)) continue;
                 const middle = rg.scaled(0.5, rg.sum(p, q));
@@ -226,10 +237,11 @@ export class RapierWorld extends rg.World {
         states.forEach((row, i) => {
             const body = this.body(i);
             if (!body.isDynamic()) return;
-            body.setTranslation(toRapier(row.slice(0, 3)), true);
-            body.setRotation(quatToRapier(row.slice(3, 7)), true);
-            body.setLinvel(toRapier(row.slice(7, 10)), true);
-            body.setAngvel(toRapier(row.slice(10, 13)), true);
+            const { space } = this;
+            body.setTranslation(space.vector(row.slice(0, 3)), true);
+            body.setRotation(space.rotation(this.turnedTo(i, row.slice(3, 7))), true);
+            body.setLinvel(space.vector(row.slice(7, 10)), true);
+            body.setAngvel(space.turn(row.slice(10, 13)), true);
         });
     }
 
@@ -237,7 +249,7 @@ export class RapierWorld extends rg.World {
         return this.world.takeSnapshot();
     }
     restore(bytes) {
-        const restored = RAPIER.World.restoreSnapshot(Uint8Array.from(bytes));
+        const restored = this.space.RAPIER.World.restoreSnapshot(Uint8Array.from(bytes));
         if (!restored) return false;
         this.world.free();
         this.world = restored;
@@ -247,13 +259,12 @@ export class RapierWorld extends rg.World {
     readBack() {
         const bodies = this.scenario.bodies.map((given, i) => {
             const body = this.body(i);
-            const gravity = rg.scaled(body.gravityScale(), fromRapier(this.world.gravity));
+            const { space } = this;
+            const gravity = rg.scaled(body.gravityScale(), space.fromVector(this.world.gravity));
             if (given.type !== 'dynamic')
-                return rg.bodyRow(0, [0, 0, 0], new Array(9).fill(0), this.stateOf(body), gravity);
-            const moments = fromRapier(body.principalInertia());
-            const axes = quatFromRapier(body.principalInertiaLocalFrame());
-            const inertia = rg.tensorOf(moments, axes);
-            return rg.bodyRow(body.mass(), fromRapier(body.localCom()), inertia, this.stateOf(body), gravity);
+                return rg.bodyRow(0, [0, 0, 0], new Array(9).fill(0), this.stateOf(i), gravity);
+            const center = rg.rotateBack(this.frames[i], space.fromVector(body.localCom()));
+            return rg.bodyRow(body.mass(), center, space.inertiaOf(body), this.stateOf(i), gravity);
         });
         return { bodies, pairs: this.pairs.map(({ a, b }) => [a, b, ...this.coefficientsOf(a, b)]) };
     }

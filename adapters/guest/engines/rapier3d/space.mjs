@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Rapier's package in 3D, as shared/rapier_world.mjs needs it.
+import RAPIER from '@dimforge/rapier3d-compat';
+import * as rg from '../../sdk/rigor_guest.mjs';
+import { addJoint } from './joints.mjs';
+import { quatToRapier, toRapier } from './vectors.mjs';
+
+const fromVector = ({ x, y, z }) => [x, y, z];
+const fromRotation = ({ w, x, y, z }) => [w, x, y, z];
+
+export const space = {
+    RAPIER,
+    vector: toRapier,
+    fromVector,
+    components: (v) => v,
+    rotation: quatToRapier,
+    fromRotation,
+    turn: toRapier,
+    fromTurn: fromVector,
+    frameOf: () => [1, 0, 0, 0],
+    addJoint,
+
+    withMass(desc, body) {
+        const { moments, orientation } = rg.principalAxes(body.inertia);
+        const center = toRapier(body.center_of_mass);
+        return desc.setAdditionalMassProperties(body.mass, center, toRapier(moments), quatToRapier(orientation));
+    },
+    inertiaOf: (body) =>
+        rg.tensorOf(fromVector(body.principalInertia()), fromRotation(body.principalInertiaLocalFrame())),
+
+    builders: {
+        sphere: (s) => ({ desc: RAPIER.ColliderDesc.ball(s.radius) }),
+        box: (s) => ({ desc: RAPIER.ColliderDesc.cuboid(...s.half_extents) }),
+        capsule: (s) => ({ desc: RAPIER.ColliderDesc.capsule(s.half_length, s.radius) }),
+        cylinder: (s) => ({ desc: RAPIER.ColliderDesc.cylinder(s.half_length, s.radius) }),
+        cone: (s) => ({ desc: RAPIER.ColliderDesc.cone(s.half_length, s.radius) }),
+        hull: (s) => ({ desc: RAPIER.ColliderDesc.convexHull(new Float32Array(s.vertices.flat())) }),
+        // Its surface contains the origin of the collider.
+        half_space: (s) => ({
+            desc: new RAPIER.ColliderDesc(new RAPIER.HalfSpace(toRapier(s.normal))),
+            offset: rg.scaled(s.offset, s.normal),
+        }),
+    },
+};
