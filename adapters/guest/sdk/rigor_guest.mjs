@@ -281,7 +281,8 @@ function requestsOf(engine) {
         hello() {
             const { name, title, version, precision, build_notes } = engine;
             const about = { name, title, version, precision, build_notes: build_notes ?? '' };
-            return [{ protocol: PROTOCOL, engine: about, capabilities: engine.capabilities, options: engine.options ?? [] }];
+            const { capabilities, options = [], presets = [] } = engine;
+            return [{ protocol: PROTOCOL, engine: about, capabilities, options, presets }];
         },
         build(header) {
             const world = engine.build(header.scenario, header.dt, header.settings);

@@ -81,6 +81,7 @@ class Guest:
     build_notes = ""
     capabilities = {}
     options = []
+    presets = []
 
     def build(self, scenario, dt, settings):
         """A World of the scenario, which is the JSON object of the protocol."""
@@ -219,7 +220,8 @@ class _Server:
     def hello(self, header, arrays):
         g = self.guest
         engine = {key: getattr(g, key) for key in ("name", "title", "version", "precision", "build_notes")}
-        return {"protocol": PROTOCOL, "engine": engine, "capabilities": g.capabilities, "options": g.options}, {}
+        return {"protocol": PROTOCOL, "engine": engine, "capabilities": g.capabilities, "options": g.options,
+                "presets": g.presets}, {}
 
     def build(self, header, arrays):
         world = self.guest.build(header["scenario"], header["dt"], header["settings"])

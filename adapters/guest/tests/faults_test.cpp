@@ -3,9 +3,12 @@
 //
 // Guests with one fault each: every one ends as one exception that names it, within its time.
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
+#include <csignal>
 
 #include "adapters/guest/tests/guest_files.hpp"
 #include "adapters/interface/engine_failure.hpp"
@@ -155,6 +158,37 @@ TEST(Guests, ThatStayAfterTheEndOfTheirInputAreKilled) {
     const auto start = std::chrono::steady_clock::now();
     { const auto engine = adapter::loadEngine(adapter::parseSpec("faulty")); }
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+}
+
+/// Nothing is left of a process, or it is about to be collected.
+bool hasEnded(int pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    return text.empty() || text.find(") Z") != std::string::npos;
+}
+
+/// The process that uses the guest is killed and can do nothing about it.
+TEST(Guests, EndWithTheProcessThatStartedThem) {
+    const GuestFolder folder;
+    folder.addFaulty("stays");
+    const std::string file = (folder.path() / "pid").string();
+    const pid_t user = fork();
+    if (user == 0) {
+        setenv("FAULTY_GUEST_PID", file.c_str(), 1);
+        const auto engine = adapter::loadEngine(adapter::parseSpec("faulty"));
+        pause();
+        _exit(0);
+    }
+    const auto until = [](auto&& condition) {
+        for (int i = 0; i < 1500 && !condition(); ++i) usleep(10000);
+        return condition();
+    };
+    int guest = 0;
+    ASSERT_TRUE(until([&] { return static_cast<bool>(std::ifstream(file) >> guest) && guest > 0; }));
+    EXPECT_FALSE(hasEnded(guest));
+    kill(user, SIGKILL);
+    waitpid(user, nullptr, 0);
+    EXPECT_TRUE(until([&] { return hasEnded(guest); }));
 }
 
 TEST(Manifests, SayWhatIsWrongWithThem) {

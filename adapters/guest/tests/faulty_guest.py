@@ -140,6 +140,10 @@ def with_fault(header, arrays):
     return header, arrays
 
 
+if "FAULTY_GUEST_PID" in os.environ:
+    with open(os.environ["FAULTY_GUEST_PID"], "w") as file:
+        file.write("%d\n" % os.getpid())
+
 AT_HELLO = {"version", "no_engine", "hello_exit", "hello_garbage", "hello_silent"}
 steps = 0
 write_frame = rg.write_frame

@@ -22,7 +22,7 @@ export function withVec2([x, y], use) {
     v.delete();
     return result;
 }
-/** b2MakeRot is an approximation of up to 5e-4 rad: cosine and sine are given instead. */
+/** b2MakeRot is an approximation, off by up to 1.7e-3 rad: cosine and sine are given instead. */
 export function withRot(angle, use) {
     const q = new B.b2Rot();
     q.c = Math.cos(angle);

@@ -5,14 +5,6 @@ import { angleOf, B, withRot, withVec2 } from './library.mjs';
 
 const kMostVertices = 8;
 
-/** Half the side of the box that stands for a half-plane: no body gets farther in free flight [m]. */
-export function reachOf(scenario) {
-    const t = scenario.duration;
-    const fall = 0.5 * rg.norm(scenario.gravity) * t * t;
-    const farthest = scenario.bodies.map((body) => rg.norm(body.position) + rg.norm(body.velocity) * t + fall);
-    return Math.min(1000, Math.max(20, 2 * Math.max(...farthest)));
-}
-
 function polygonOf(points, user) {
     if (points.length > kMostVertices)
         throw new rg.Unsupported(

@@ -4,10 +4,11 @@
 // A scenario in Box2D 3. The coefficients of a pair come from the library's callbacks, by the materials' numbers.
 import { performance } from 'node:perf_hooks';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { reachOf } from '../shared/reach.mjs';
 import { addJoint } from './joints.mjs';
 import { ledgerOf } from './ledger.mjs';
 import { angleOf, B, quaternionOf, vector, withRot, withVec2 } from './library.mjs';
-import { addShape, reachOf } from './shapes.mjs';
+import { addShape } from './shapes.mjs';
 
 /** The library multiplies velocities by 1 / (1 + c h) in every sub-step h; c for what is kept per second. */
 const dampingFor = (kept, h) => (kept ** -h - 1) / h;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What Planck.js does otherwise than the scenario asks.
+import * as rg from '../../sdk/rigor_guest.mjs';
+
+export function ledgerOf({ scenario, settings, reach }) {
+    const lines = [
+        rg.exact('integrator', 'symplectic_euler'),
+        rg.exact(
+            'solver',
+            `sequential impulses, ${settings.velocity_iterations} of velocities, ${settings.position_iterations} of positions`,
+        ),
+        rg.exact('pair_coefficients', "by the library's contact events"),
+        rg.approximate('penetration_slop', '0', `${settings.linear_slop} m`, 'overlap that is left alone'),
+        rg.approximate('skin', '0', `${2 * settings.linear_slop} m`, 'polygons and segments touch before they meet'),
+        rg.approximate('max_travel', 'none', `${settings.max_travel} m in a step`, 'bodies are slowed down to it'),
+    ];
+    lines.push(
+        Number(settings.restitution_threshold) > 0
+            ? rg.approximate('restitution_threshold', '0', `${settings.restitution_threshold} m/s`, 'slower approaches do not bounce')
+            : rg.exact('restitution_threshold', '0'),
+        settings.sleeping === 'on'
+            ? rg.approximate('sleeping', 'off', 'on', 'bodies at rest are stopped')
+            : rg.exact('sleeping', 'off'),
+    );
+    if (scenario.bodies.some((body) => body.shapes.some((shape) => shape.shape === 'half_plane')))
+        lines.push(rg.approximate('half_plane', 'unbounded', `a box of side ${2 * reach} m`, 'the library has no half-plane'));
+    return lines;
+}

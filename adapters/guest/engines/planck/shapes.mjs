@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+import { BoxShape, CircleShape, EdgeShape, PolygonShape, Settings } from 'planck';
+import * as rg from '../../sdk/rigor_guest.mjs';
+
+export const toPlanck = ([x, y]) => ({ x, y });
+export const angleOf = ([w, , , z]) => 2 * Math.atan2(z, w);
+
+/** A shape of the library, placed in its body. */
+export function shapeOf(shape, reach, user) {
+    const place = (p) => rg.sum(shape.position, rg.rotate(shape.orientation, p));
+    switch (shape.shape) {
+        case 'circle':
+            return new CircleShape(toPlanck(shape.position), shape.radius);
+        case 'box':
+            return new BoxShape(...shape.half_extents.slice(0, 2), toPlanck(shape.position), angleOf(shape.orientation));
+        case 'segment':
+            return new EdgeShape(toPlanck(place(shape.a)), toPlanck(place(shape.b)));
+        case 'half_plane': {
+            const center = place(rg.scaled(shape.offset - reach, shape.normal));
+            const angle = angleOf(shape.orientation) + Math.atan2(shape.normal[1], shape.normal[0]);
+            return new BoxShape(reach, reach, toPlanck(center), angle);
+        }
+        default: {
+            if (shape.vertices.length > Settings.maxPolygonVertices)
+                throw new rg.Unsupported(
+                    `polygon of ${shape.vertices.length} vertices`,
+                    `planck.d.ts, Settings.maxPolygonVertices ${Settings.maxPolygonVertices}`,
+                    user,
+                );
+            return new PolygonShape(shape.vertices.map((v) => toPlanck(place(v))));
+        }
+    }
+}
+
+/** Half of the library's skin, which lies outside of a shape. */
+export const skinOf = (shape) => (shape.shape === 'circle' ? 0 : Settings.polygonRadius);
