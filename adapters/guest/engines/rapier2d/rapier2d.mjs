@@ -4,6 +4,7 @@
 // Rapier 2D as a guest: its identity and its features.
 import RAPIER from '@dimforge/rapier2d-compat';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { collide } from '../shared/rapier_collide.mjs';
 import { options } from '../shared/rapier_options.mjs';
 import { RapierWorld } from '../shared/rapier_world.mjs';
 import { space } from './space.mjs';
@@ -15,6 +16,8 @@ for (const type of ['hinge', 'slider']) joints.push(type, ...['limit', 'motor', 
 
 const capabilities = {
     dynamics: true,
+    collision: true,
+    signed_distance: true,
     dimensions: [2],
     shapes: ['circle', 'box', 'capsule', 'polygon', 'half_plane', 'segment'],
     joints,
@@ -41,4 +44,5 @@ rg.serve({
     capabilities,
     options,
     build: (scenario, dt, settings) => new RapierWorld(space, scenario, dt, settings),
+    collide: (a, b) => collide(space, a, b),
 });
