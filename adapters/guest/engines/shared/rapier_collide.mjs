@@ -7,10 +7,12 @@ import * as rg from '../../sdk/rigor_guest.mjs';
 /** Distances are found up to here [m]. */
 const kFarthest = 1e3;
 
-function placed(space, given) {
+/** Positions are relative to `origin`, before they become numbers of single precision. */
+function placed(space, given, origin) {
     const { desc, offset = [0, 0, 0] } = space.builders[given.shape](given);
     if (!desc) throw new rg.BadInput('Rapier builds no hull of these vertices');
-    const position = rg.sum(given.position, rg.rotate(given.orientation, offset));
+    const inWorld = rg.sum(given.position, rg.rotate(given.orientation, offset));
+    const position = rg.difference(inWorld, origin);
     return { shape: desc.shape, position: space.vector(position), rotation: space.rotation(given.orientation) };
 }
 
@@ -28,7 +30,8 @@ export function collide(space, a, b) {
 }
 
 function query(space, a, b) {
-    const [first, second] = [placed(space, a), placed(space, b)];
+    const origin = a.position;
+    const [first, second] = [placed(space, a, origin), placed(space, b, origin)];
     const found = first.shape.contactShape(
         first.position,
         first.rotation,
@@ -38,7 +41,7 @@ function query(space, a, b) {
         kFarthest,
     );
     if (!found) throw new rg.Unsupported(`distance of ${a.shape} and ${b.shape}`);
-    const witnesses = [space.fromVector(found.point1), space.fromVector(found.point2)];
+    const witnesses = [found.point1, found.point2].map((point) => rg.sum(origin, space.fromVector(point)));
     const overlap = found.distance <= 0;
     const normal = space.fromVector(found.normal1);
     const contacts = overlap ? [rg.contact(0, 1, witnesses[0], witnesses[1], normal, -found.distance)] : [];
