@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <fstream>
+#include <set>
 
 #include "reports/encoding/data_files.hpp"
 #include "reports/encoding/text.hpp"
@@ -38,14 +39,35 @@ std::optional<nlohmann::ordered_json> readStudy(const fs::path& file) {
     }
 }
 
+/// A lost or damaged file costs its curves, not the report; the reason goes into `problems`.
 std::optional<results::TrajectoryFile> loadTrajectory(const fs::path& runDirectory,
-                                                      const results::CaseRow& row, bool withContacts) {
+                                                      const results::CaseRow& row, bool withContacts,
+                                                      std::set<std::string>& problems) {
     if (row.trajectoryFile.empty()) return std::nullopt;
     try {
         return results::readTrajectory(runDirectory / row.trajectoryFile, withContacts);
-    } catch (const std::exception&) {
-        return std::nullopt;  // a lost or damaged file costs its curves, not the report
+    } catch (const std::exception& error) {
+        problems.insert(error.what());
+        return std::nullopt;
     }
+}
+
+/// Trajectories of which no format needs the content (of derived runs, say) are checked all the same.
+std::set<std::string> problemsOf(const results::Run& run, const fs::path& runDirectory) {
+    std::set<std::string> problems(run.damage.begin(), run.damage.end());
+    for (const results::CaseRow& row : run.cases)
+        if (!row.trajectoryFile.empty())
+            if (const auto problem = results::trajectoryProblem(runDirectory / row.trajectoryFile);
+                !problem.empty())
+                problems.insert(problem);
+    return problems;
+}
+
+std::string problemsMarkdown(const std::set<std::string>& problems) {
+    if (problems.empty()) return "";
+    std::string text = "\n## Damaged or missing\n\n";
+    for (const std::string& problem : problems) text += "- " + markdownCell(problem) + "\n";
+    return text;
 }
 
 /// An empty folder: what an earlier report left there belongs to other scenarios.
@@ -57,13 +79,14 @@ void clearDataFolder(const fs::path& folder) {
 
 }  // namespace
 
-std::vector<fs::path> writeReports(const fs::path& runDirectory) {
+std::vector<fs::path> writeReports(const fs::path& runDirectory, std::vector<std::string>* problems) {
     const results::Run run = results::readRun(runDirectory);
+    std::set<std::string> found = problemsOf(run, runDirectory);
     const results::Run shown = withoutDerivedRuns(run);
     const ViewModel view(shown);
     const auto study = readStudy(runDirectory / "study.json");
     const TrajectoryLoader load = [&](const results::CaseRow& row) {
-        return loadTrajectory(runDirectory, row, false);
+        return loadTrajectory(runDirectory, row, false, found);
     };
     std::vector<fs::path> written;
     const auto write = [&](const fs::path& name, const std::string& content) {
@@ -78,7 +101,7 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory) {
     for (std::size_t i = 0; i < shown.scenarios.size(); ++i)
         writeData("scenario-" + std::to_string(i), scenarioJson(view, i, load));
     write("results.csv", csvReport(run));
-    write("summary.md", markdownSummary(view));
+    write("summary.md", markdownSummary(view) + problemsMarkdown(found));
     write("junit.xml", junitReport(run));
     if (!run.orders.empty()) write("orders.csv", ordersCsv(run));
     if (!run.fairness.empty()) write("fairness.csv", fairnessCsv(run));
@@ -98,9 +121,10 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory) {
         write(fs::path("tables") / (table.name + ".tex"), tableLatex(table));
     }
     const FullTrajectoryLoader loadAll = [&](const results::CaseRow& row) {
-        return loadTrajectory(runDirectory, row, true);
+        return loadTrajectory(runDirectory, row, true, found);
     };
     replayFiles(view, loadAll, writeData);
+    if (problems != nullptr) problems->assign(found.begin(), found.end());
     return written;
 }
 

@@ -5,9 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <stdexcept>
 
+#include "validation/results/files.hpp"
 #include "validation/results/values.hpp"
 
 namespace rigor::report {
@@ -194,15 +193,7 @@ std::size_t displayWidth(std::string_view text) {
 }
 
 void writeFile(const std::filesystem::path& file, std::string_view content) {
-    auto partial = file;
-    partial += ".part";
-    {
-        std::ofstream out(partial, std::ios::binary | std::ios::trunc);
-        out.write(content.data(), content.size());
-        out.close();
-        if (!out) throw std::runtime_error("report: cannot write " + partial.string());
-    }
-    std::filesystem::rename(partial, file);
+    results::replaceScratchFile(file, content);
 }
 
 }  // namespace rigor::report

@@ -50,7 +50,8 @@ std::string fileNamePart(std::string_view text);
 /// Columns a terminal uses for UTF-8 text of single-width characters.
 std::size_t displayWidth(std::string_view text);
 
-/// Replaces the file at once: a reader sees the old one or the whole new one. Throws std::runtime_error.
+/// Replaces the file at once: a reader sees the old one or the whole new one. Throws
+/// results::EnvironmentError.
 void writeFile(const std::filesystem::path& file, std::string_view content);
 
 }  // namespace rigor::report

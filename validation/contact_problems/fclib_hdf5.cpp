@@ -15,6 +15,7 @@
 #include <algorithm>
 
 #include "validation/contact_problems/problem.hpp"
+#include "validation/results/files.hpp"
 #include "validation/results/hdf5_file.hpp"
 
 namespace rigor::validation {
@@ -192,7 +193,7 @@ ExportedProblem readFclib(const std::filesystem::path& path) {
 
 void writeFclib(const ExportedProblem& exported, const std::filesystem::path& path, SparseLayout layout) {
     const ContactProblem& p = exported.problem;
-    Hdf5File file = Hdf5File::create(path);
+    Hdf5File file = Hdf5File::create();
     const std::string root = exported.isGlobal ? "/fclib_global" : "/fclib_local";
     file.createGroup(root);
     file.writeIntegers(root + "/spacedim", {p.dimension}, 1, "");
@@ -213,7 +214,7 @@ void writeFclib(const ExportedProblem& exported, const std::filesystem::path& pa
     if (!exported.storedR.empty() || !exported.storedU.empty() || !exported.storedV.empty())
         writeVectors(file, "/solution",
                      {{"v", &exported.storedV}, {"u", &exported.storedU}, {"r", &exported.storedR}});
-    file.close();
+    results::replaceFile(path, file.finish());
 }
 
 }  // namespace rigor::validation

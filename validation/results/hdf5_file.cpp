@@ -5,8 +5,12 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
+
+#include "validation/results/files.hpp"
 
 namespace rigor::results {
 namespace {
@@ -14,6 +18,7 @@ namespace {
 constexpr std::size_t kChunkThreshold = 8192;  ///< values; smaller sets gain nothing from compression
 constexpr hsize_t kChunkValues = 16384;        ///< about 128 KiB of doubles per chunk
 constexpr unsigned kDeflateLevel = 1;
+constexpr std::size_t kMemoryIncrement = 1 << 16;  ///< growth of a file in memory [bytes]
 
 [[noreturn]] void failed(const std::string& what) {
     throw std::runtime_error("HDF5: cannot " + what);
@@ -104,34 +109,91 @@ std::vector<T> readValues(hid_t file, const std::string& path, int& columns, hid
 
 }  // namespace
 
-Hdf5File Hdf5File::create(const std::filesystem::path& file) {
+/// A file in memory, of which the library gives the content only when it closes it: it frees its buffer then.
+struct Hdf5File::Image {
+    std::size_t size = 0;  ///< length of the file, less than that of the buffer
+    std::string bytes;
+};
+
+namespace {
+
+void* allocateImage(std::size_t size, H5FD_file_image_op_t, void*) {
+    return std::malloc(size);
+}
+void* copyImage(void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
+    return std::memcpy(to, from, size);
+}
+void* resizeImage(void* buffer, std::size_t size, H5FD_file_image_op_t, void*) {
+    return std::realloc(buffer, size);
+}
+template <class Image>
+herr_t take(void* buffer, H5FD_file_image_op_t when, void* image) {
+    auto* target = static_cast<Image*>(image);
+    if (when == H5FD_FILE_IMAGE_OP_FILE_CLOSE)
+        target->bytes.assign(static_cast<const char*>(buffer), target->size);
+    std::free(buffer);
+    return 0;
+}
+void* sameImage(void* image) {
+    return image;
+}
+herr_t keepImage(void*) {
+    return 0;
+}
+
+}  // namespace
+
+Hdf5File Hdf5File::create() {
     silence();
-    const std::string what = "create " + file.string();
+    const std::string what = "create a file";
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
     check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), what);  // readable by old tools
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, what);
     check(H5Pset_obj_track_times(creation, false), what);
-    const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access);
+    auto image = std::make_unique<Image>();
+    check(H5Pset_fapl_core(access, kMemoryIncrement, false), what);
+    H5FD_file_image_callbacks_t callbacks{allocateImage, copyImage, resizeImage, take<Image>,
+                                          sameImage,     keepImage, image.get()};
+    check(H5Pset_file_image_callbacks(access, &callbacks), what);
+    const hid_t id = H5Fcreate("memory", H5F_ACC_TRUNC, creation, access);
     if (id < 0) failed(what);
-    return Hdf5File(id);
+    return Hdf5File(id, std::move(image));
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& file) {
-    silence();
-    const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (id < 0) failed("open it: it is no HDF5 file, or a damaged one");
-    return Hdf5File(id);
+    return fromImage(readFile(file));
 }
 
-Hdf5File::Hdf5File(Hdf5File&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+Hdf5File Hdf5File::fromImage(const std::string& bytes) {
+    silence();
+    const std::string what = "open it: it is no HDF5 file, or a damaged one";
+    if (bytes.empty()) failed(what);
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+    check(H5Pset_fapl_core(access, kMemoryIncrement, false), what);
+    check(H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()), what);
+    const hid_t id = H5Fopen("memory", H5F_ACC_RDONLY, access);
+    if (id < 0) failed(what);
+    return Hdf5File(id, nullptr);
+}
+
+Hdf5File::Hdf5File(std::int64_t id, std::unique_ptr<Image> image) : id_(id), image_(std::move(image)) {}
+
+Hdf5File::Hdf5File(Hdf5File&& other) noexcept
+    : id_(std::exchange(other.id_, -1)), image_(std::move(other.image_)) {}
 
 Hdf5File::~Hdf5File() {
     if (id_ >= 0) H5Fclose(id_);
 }
 
-void Hdf5File::close() {
-    check(H5Fflush(id_, H5F_SCOPE_GLOBAL), "flush the file");
-    check(H5Fclose(std::exchange(id_, -1)), "close the file");
+std::string Hdf5File::finish() {
+    const std::string what = "collect the bytes of the file";
+    check(H5Fflush(id_, H5F_SCOPE_GLOBAL), what);
+    // H5Fget_file_image would give the content as well, but spoils the checksum of the superblock (1.10.8).
+    const ssize_t size = H5Fget_file_image(id_, nullptr, 0);
+    if (size < 0) failed(what);
+    image_->size = static_cast<std::size_t>(size);
+    check(H5Fclose(std::exchange(id_, -1)), what);
+    return std::move(image_->bytes);
 }
 
 void Hdf5File::createGroup(const std::string& path) {

@@ -1,27 +1,31 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Wrapper of the HDF5 functions in use, with handles that close themselves and failures that are exceptions.
+// Wrapper of the HDF5 functions in use, with handles that close themselves and failures that are exceptions. The
+// library works on a copy of the file in memory; this project reads and writes the file itself, so that errors of
+// the disk have an errno and a path and never end inside the library.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace rigor::results {
 
-/// An open HDF5 file; paths are absolute ("/bodies/block/position"). Every member throws std::runtime_error
+/// The content of an HDF5 file; paths are absolute ("/bodies/block/position"). Every member throws std::runtime_error
 /// naming the path. It must not be used from several threads: the library is not built for that.
 class Hdf5File {
   public:
-    static Hdf5File create(const std::filesystem::path& file);  ///< truncates
-    static Hdf5File open(const std::filesystem::path& file);    ///< read only
+    static Hdf5File create();                                 ///< an empty one, in memory
+    static Hdf5File open(const std::filesystem::path& file);  ///< read only
+    static Hdf5File fromImage(const std::string& bytes);      ///< read only
     Hdf5File(Hdf5File&& other) noexcept;
     Hdf5File& operator=(Hdf5File&&) = delete;
     ~Hdf5File();
-    /// Flushes and closes; throws where the destructor would be silent.
-    void close();
+    /// Ends writing and returns the bytes of the file.
+    std::string finish();
 
     void createGroup(const std::string& path);
     bool exists(const std::string& path) const;
@@ -49,8 +53,10 @@ class Hdf5File {
     double number(const std::string& path, const char* name) const;
 
   private:
-    explicit Hdf5File(std::int64_t id) : id_(id) {}
+    struct Image;
+    Hdf5File(std::int64_t id, std::unique_ptr<Image> image);
     std::int64_t id_;
+    std::unique_ptr<Image> image_;  ///< null when reading
 };
 
 }  // namespace rigor::results

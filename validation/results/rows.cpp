@@ -9,6 +9,7 @@
 #include "validation/results/bench_rows.hpp"
 #include "validation/results/columns.hpp"
 #include "validation/results/schema.hpp"
+#include "validation/results/seals.hpp"
 
 namespace rigor::results {
 namespace {
@@ -55,7 +56,7 @@ void writeLists(SQLite::Database& database, const CaseRow& c) {
               [](Binder& b, const auto& setting) { b << setting.first << setting.second; });
 }
 
-std::vector<CaseRow> readCases(SQLite::Database& database) {
+std::vector<CaseRow> readCases(SQLite::Database& database, const std::set<std::string>& skipped) {
     std::vector<CaseRow> cases;
     ColumnList columns(schemaVersionOf(database));
     const CaseRow like;
@@ -63,6 +64,7 @@ std::vector<CaseRow> readCases(SQLite::Database& database) {
     SQLite::Statement select(database,
                              "SELECT " + columns.text.substr(2) + " FROM cases ORDER BY position, id");
     while (select.executeStep()) {
+        if (skipped.contains(select.getColumn("id").getString())) continue;
         Taker taker(select);
         eachField(cases.emplace_back(), TakeFields{taker});
     }
@@ -81,6 +83,8 @@ void readList(SQLite::Database& database, const CaseIndex& cases, const char* ta
         std::string id;
         taker >> id;
         const auto it = cases.find(id);
+        if (it == cases.end() && schemaVersionOf(database) >= kFirstSchemaWithSeals)
+            continue;  // its case is named as damaged
         if (it == cases.end())
             throw std::runtime_error(std::string("table ") + table + ": row of an unknown case " + id);
         take(*it->second, taker);
@@ -222,14 +226,20 @@ void writeAnalysisRows(SQLite::Database& database, const Run& run) {
             .run();
 }
 
-Run readRows(SQLite::Database& database) {
+Run readHeaderRows(SQLite::Database& database) {
     Run run;
     readHeader(database, run);
-    run.cases = readCases(database);
+    return run;
+}
+
+Run readRows(SQLite::Database& database, const std::set<std::string>& skipped, bool withAnalysis) {
+    Run run;
+    readHeader(database, run);
+    run.cases = readCases(database, skipped);
     CaseIndex index;
     for (CaseRow& c : run.cases) index[c.id] = &c;
     readLists(database, index);
-    if (schemaVersionOf(database) >= 2) readAnalysis(database, run);
+    if (withAnalysis && schemaVersionOf(database) >= 2) readAnalysis(database, run);
     if (schemaVersionOf(database) >= 5) run.bench = readBench(database);
     return run;
 }

@@ -6,6 +6,9 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <set>
+#include <string>
+
 #include "validation/results/types.hpp"
 
 namespace rigor::results {
@@ -17,7 +20,9 @@ void writeCaseRows(SQLite::Database& database, const CaseRow& row);
 /// Replaces orders and fairness; the caller holds the transaction.
 void writeAnalysisRows(SQLite::Database& database, const Run& run);
 
-/// The whole store, cases in the order of the plan.
-Run readRows(SQLite::Database& database);
+/// The rows that belong to the run as a whole, without its cases.
+Run readHeaderRows(SQLite::Database& database);
+/// The whole store, cases in the order of the plan, without those whose id is in `skipped`.
+Run readRows(SQLite::Database& database, const std::set<std::string>& skipped = {}, bool withAnalysis = true);
 
 }  // namespace rigor::results

@@ -10,6 +10,7 @@
 
 #include "validation/results/bench_rows.hpp"
 #include "validation/results/columns.hpp"
+#include "validation/results/seals.hpp"
 #include "validation/results/store.hpp"
 
 namespace rigor::results {
@@ -165,6 +166,9 @@ void checkVersion(SQLite::Database& database, const std::filesystem::path& file)
                                  std::to_string(version) + ", expected at most " +
                                  std::to_string(kSchemaVersion));
     if (version < 1) throw std::runtime_error(file.string() + ": the store has no schema version");
+    if ((version >= kFirstSchemaWithSeals) != database.tableExists("seals"))
+        throw std::runtime_error(file.string() + ": is damaged: its tables are not those of schema " +
+                                 std::to_string(version));
 }
 
 /// A run of an older rigor that is gone on with.
@@ -185,6 +189,13 @@ void upgrade(SQLite::Database& database) {
     if (version < 9) database.exec(kColumnsOfSchema9);
     if (version < 10) database.exec(kColumnsOfSchema10);
     if (version < 11) database.exec(kColumnsOfSchema11);
+    if (version < kFirstSchemaWithSeals) {
+        database.exec(kSealsTable);
+        sealHeader(database);
+        sealAnalysis(database);
+        SQLite::Statement select(database, "SELECT id FROM cases");
+        while (select.executeStep()) sealCase(database, select.getColumn(0).getString());
+    }
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
 }
@@ -213,6 +224,9 @@ SQLite::Database createDatabase(const std::filesystem::path& file) {
     database.exec(kTables);
     database.exec(kAnalysisTables);
     database.exec(kBenchTables);
+    database.exec(kSealsTable);
+    sealHeader(database);
+    sealAnalysis(database);
     database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();

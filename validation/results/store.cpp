@@ -3,13 +3,12 @@
 #include "validation/results/store.hpp"
 
 #include <fcntl.h>
+#include <sqlite3.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -17,8 +16,10 @@
 
 #include "validation/results/bench_rows.hpp"
 #include "validation/results/columns.hpp"
+#include "validation/results/files.hpp"
 #include "validation/results/rows.hpp"
 #include "validation/results/schema.hpp"
+#include "validation/results/seals.hpp"
 
 namespace rigor::results {
 
@@ -29,8 +30,7 @@ class FolderLock {
   public:
     explicit FolderLock(const fs::path& directory)
         : file_(open((directory / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
-        if (file_ < 0)
-            throw std::runtime_error(directory.string() + ": cannot write here: " + std::strerror(errno));
+        if (file_ < 0) throw EnvironmentError(directory, "cannot write here", errno);
         if (!locked()) {
             close(file_);
             throw std::runtime_error(directory.string() + ": another rigor is writing this run");
@@ -60,7 +60,7 @@ fs::path storeFile(const fs::path& directory) {
 
 SQLite::Database openForWriting(const fs::path& directory, bool resume) {
     const fs::path file = storeFile(directory);
-    const bool present = fs::exists(file);
+    const bool present = holdsStore(directory);
     if (present && !resume)
         throw std::runtime_error(directory.string() +
                                  ": holds a run already; resume it or choose another folder");
@@ -70,7 +70,7 @@ SQLite::Database openForWriting(const fs::path& directory, bool resume) {
 }
 
 fs::path createdFolder(const fs::path& directory) {
-    fs::create_directories(directory / "trajectories");
+    createFolders(directory / "trajectories");
     return directory;
 }
 
@@ -82,20 +82,56 @@ void writeManifest(const fs::path& directory, const Run& run) {
         {"finished", run.finished},      {"planned_cases", run.plannedCases},
         {"store", "results.sqlite"},     {"trajectories", "trajectories"},
         {"environment", run.environment}};
-    const fs::path file = directory / "manifest.json", part = directory / "manifest.json.part";
-    {
-        std::ofstream out(part, std::ios::trunc);
-        out << manifest.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-        if (!out.flush()) throw std::runtime_error(part.string() + ": cannot be written");
-    }
-    fs::rename(part, file);
+    replaceFile(directory / "manifest.json",
+                manifest.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+/// Error that a new file in the folder of the store meets; 0: none.
+int errorOfNewFile(const fs::path& store) {
+    fs::path probe = store;
+    probe += ".probe";
+    const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+    if (file < 0) return errno;
+    close(file);
+    std::error_code ignored;
+    fs::remove(probe, ignored);
+    return 0;
+}
+
+/// An error of SQLite as one of the environment, with the errno of the system call behind it. If SQLite cannot make its
+/// journal it looks for an old one, and reports that there is none.
+EnvironmentError storeError(const fs::path& file, const SQLite::Exception& error, int systemCode) {
+    int code = error.getErrorCode() == SQLITE_FULL ? ENOSPC : systemCode;
+    if (error.getErrorCode() == SQLITE_CANTOPEN)
+        if (const int found = errorOfNewFile(file); found != 0) code = found;
+    return EnvironmentError(file, std::string("cannot be written: ") + error.what(), code);
 }
 
 }  // namespace
 
 struct RunWriter::Impl {
     Impl(const fs::path& folder, bool resume)
-        : directory(createdFolder(folder)), lock(directory), database(openForWriting(directory, resume)) {}
+        : directory(createdFolder(folder)), lock(directory), database(opened(directory, resume)) {}
+
+    static SQLite::Database opened(const fs::path& folder, bool resume) {
+        try {
+            return openForWriting(folder, resume);
+        } catch (const SQLite::Exception& error) {
+            throw storeError(storeFile(folder), error, errno);
+        }
+    }
+
+    /// Does `work` in a transaction.
+    template <class Work>
+    void write(Work work) {
+        try {
+            SQLite::Transaction transaction(database);
+            work();
+            transaction.commit();
+        } catch (const SQLite::Exception& error) {
+            throw storeError(storeFile(directory), error, sqlite3_system_errno(database.getHandle()));
+        }
+    }
 
     fs::path directory;
     FolderLock lock;
@@ -107,9 +143,10 @@ RunWriter::RunWriter(const fs::path& directory, bool resume)
 RunWriter::~RunWriter() = default;
 
 void RunWriter::writeHeader(const Run& run) {
-    SQLite::Transaction transaction(impl_->database);
-    writeHeaderRows(impl_->database, run);
-    transaction.commit();
+    impl_->write([&] {
+        writeHeaderRows(impl_->database, run);
+        sealHeader(impl_->database);
+    });
     writeManifest(impl_->directory, run);
 }
 
@@ -122,49 +159,52 @@ std::vector<std::string> RunWriter::finishedCases() const {
 
 void RunWriter::keepOnly(const std::vector<std::string>& ids) {
     const std::set<std::string> wanted(ids.begin(), ids.end());
-    SQLite::Transaction transaction(impl_->database);
-    SQLite::Statement forget(impl_->database, "DELETE FROM cases WHERE id = ?");
-    for (const std::string& id : finishedCases())
-        if (!wanted.contains(id)) (Binder(forget) << id).run();
-    transaction.commit();
+    impl_->write([&] {
+        SQLite::Statement forget(impl_->database, "DELETE FROM cases WHERE id = ?");
+        for (const std::string& id : finishedCases())
+            if (!wanted.contains(id)) (Binder(forget) << id).run();
+        removeSealsOfMissingCases(impl_->database);
+    });
 }
 
 void RunWriter::writeCase(const CaseRow& row) {
-    SQLite::Transaction transaction(impl_->database);
-    writeCaseRows(impl_->database, row);
-    transaction.commit();
+    impl_->write([&] {
+        writeCaseRows(impl_->database, row);
+        sealCase(impl_->database, row.id);
+    });
 }
 
 void RunWriter::writeAnalysis(const Run& run) {
-    SQLite::Transaction transaction(impl_->database);
-    writeAnalysisRows(impl_->database, run);
-    transaction.commit();
+    impl_->write([&] {
+        writeAnalysisRows(impl_->database, run);
+        sealAnalysis(impl_->database);
+    });
 }
 
 void RunWriter::writeBenchPlan(const Bench& bench) {
-    SQLite::Transaction transaction(impl_->database);
-    results::writeBenchPlan(impl_->database, bench);
-    transaction.commit();
+    impl_->write([&] { results::writeBenchPlan(impl_->database, bench); });
 }
 
 void RunWriter::writeBenchRepetition(const std::string& caseId, const BenchRepetition& repetition) {
-    SQLite::Transaction transaction(impl_->database);
-    results::writeBenchRepetition(impl_->database, caseId, repetition);
-    transaction.commit();
+    impl_->write([&] { results::writeBenchRepetition(impl_->database, caseId, repetition); });
 }
 
 void RunWriter::writeBenchAnalysis(const Bench& bench) {
-    SQLite::Transaction transaction(impl_->database);
-    results::writeBenchAnalysis(impl_->database, bench);
-    transaction.commit();
+    impl_->write([&] { results::writeBenchAnalysis(impl_->database, bench); });
 }
 
 void RunWriter::finish(const std::string& isoTime) {
-    SQLite::Transaction transaction(impl_->database);
-    SQLite::Statement update(impl_->database, "UPDATE run SET finished = ?");
-    (Binder(update) << isoTime).run();
-    transaction.commit();
-    writeManifest(impl_->directory, readRows(impl_->database));
+    impl_->write([&] {
+        SQLite::Statement update(impl_->database, "UPDATE run SET finished = ?");
+        (Binder(update) << isoTime).run();
+        sealHeader(impl_->database);
+    });
+    writeManifest(impl_->directory, readHeaderRows(impl_->database));
+}
+
+bool holdsStore(const fs::path& directory) {
+    std::error_code error;
+    return fs::file_size(storeFile(directory), error) > 0 && !error;
 }
 
 Run readRun(const fs::path& directory) {
@@ -174,12 +214,26 @@ Run readRun(const fs::path& directory) {
     SQLite::Database database = openDatabase(file, false);
     try {
         SQLite::Transaction transaction(database);  // one consistent view while another process writes
-        Run run = readRows(database);
+        const Damage damage =
+            schemaVersionOf(database) >= kFirstSchemaWithSeals ? findDamage(database) : Damage{};
+        bool hasAnalysis = true;
+        for (const std::string& table : damage.tables) {
+            if (table != "orders" && table != "fairness")
+                throw EnvironmentError("the table " + table + " is damaged: it does not fit its checksum");
+            hasAnalysis = false;
+        }
+        Run run = readRows(database, damage.cases, hasAnalysis);
+        for (const std::string& id : damage.cases)
+            run.damage.push_back(file.string() + ": the rows of case " + id +
+                                 " do not fit their checksum; it is left out");
+        if (!hasAnalysis)
+            run.damage.push_back(file.string() +
+                                 ": orders and fairness do not fit their checksums; they are left out");
         run.directory = directory.string();
         run.schemaVersion = schemaVersionOf(database);
         return run;
     } catch (const std::exception& error) {
-        throw std::runtime_error(file.string() + ": cannot be read: " + error.what());
+        throw EnvironmentError(file, std::string("cannot be read: ") + error.what(), 0);
     }
 }
 

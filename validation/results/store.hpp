@@ -11,13 +11,17 @@
 
 namespace rigor::results {
 
-inline constexpr int kSchemaVersion = 11;
+inline constexpr int kSchemaVersion = 12;
 
-/// Reads a run folder. Throws std::runtime_error when it is none or of a newer schema.
+/// True if the folder has a store. A run that stopped before it had tables leaves an empty file, which is none.
+bool holdsStore(const std::filesystem::path& directory);
+
+/// Reads a run folder. Cases whose rows do not fit their checksum are left out and named in Run::damage. Throws
+/// std::runtime_error when it is no run folder or of a newer schema, or when what belongs to the whole run is damaged.
 Run readRun(const std::filesystem::path& directory);
 
 /// Writes a run as it happens. Every call is one transaction: what returned is on disk after a kill. One
-/// writer at a time: a second one on the same folder is refused.
+/// writer at a time: a second one on the same folder is refused. What the disk refuses is an EnvironmentError.
 class RunWriter {
   public:
     /// Creates the folder and store, or opens an existing one (`resume`). Throws std::runtime_error when the

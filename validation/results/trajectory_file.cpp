@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "validation/results/files.hpp"
 #include "validation/results/hdf5_file.hpp"
+#include "validation/results/trial.hpp"
 
 namespace rigor::results {
 namespace {
@@ -172,6 +174,46 @@ std::vector<ContactSample> readContacts(Hdf5File& file) {
     return contacts;
 }
 
+std::string imageOf(const TrajectoryFile& data) {
+    Hdf5File file = Hdf5File::create();
+    file.setInteger("/", "rigor_trajectory", data.contactInstantsKnown ? kFormat : kLastWithoutInstants);
+    file.setText("/", "scenario", data.scenario);
+    file.setText("/", "spec", data.spec);
+    file.setText("/", "case_id", data.caseId);
+    file.setDouble("/", "dt", data.dt);
+    file.setInteger("/", "stride", data.stride);
+    file.setInteger("/", "contact_stride", data.contactStride);
+    file.writeDoubles("/time", data.times, 1, "s");
+    writeBodies(file, "/bodies", data.bodies);
+    writeBodies(file, "/reference", data.reference);
+    writeSeries(file, data.series);
+    writeContacts(file, data.contacts);
+    return file.finish();
+}
+
+TrajectoryFile parsed(const std::string& bytes, bool withContacts) {
+    Hdf5File file = Hdf5File::fromImage(bytes);
+    const int format = file.integer("/", "rigor_trajectory");
+    if (format > kFormat)
+        throw std::runtime_error("written by a newer rigor: found format " + std::to_string(format) +
+                                 ", expected at most " + std::to_string(kFormat));
+    TrajectoryFile data;
+    data.scenario = file.text("/", "scenario");
+    data.spec = file.text("/", "spec");
+    data.caseId = file.text("/", "case_id");
+    data.dt = file.number("/", "dt");
+    data.stride = file.integer("/", "stride");
+    if (format > 1) data.contactStride = file.integer("/", "contact_stride");
+    int columns = 0;
+    data.times = file.readDoubles("/time", columns);
+    data.bodies = readBodies(file, "/bodies");
+    data.reference = readBodies(file, "/reference");
+    data.series = readSeries(file);
+    data.contactInstantsKnown = format > kLastWithoutInstants;
+    if (withContacts) data.contacts = readContacts(file);
+    return data;
+}
+
 }  // namespace
 
 bool contactsStored(const TrajectoryFile& file, std::size_t frame) {
@@ -180,56 +222,40 @@ bool contactsStored(const TrajectoryFile& file, std::size_t frame) {
 }
 
 void writeTrajectory(const fs::path& target, const TrajectoryFile& data) {
-    fs::path part = target;
-    part += ".part";
+    std::string bytes;
     try {
-        Hdf5File file = Hdf5File::create(part);
-        file.setInteger("/", "rigor_trajectory", data.contactInstantsKnown ? kFormat : kLastWithoutInstants);
-        file.setText("/", "scenario", data.scenario);
-        file.setText("/", "spec", data.spec);
-        file.setText("/", "case_id", data.caseId);
-        file.setDouble("/", "dt", data.dt);
-        file.setInteger("/", "stride", data.stride);
-        file.setInteger("/", "contact_stride", data.contactStride);
-        file.writeDoubles("/time", data.times, 1, "s");
-        writeBodies(file, "/bodies", data.bodies);
-        writeBodies(file, "/reference", data.reference);
-        writeSeries(file, data.series);
-        writeContacts(file, data.contacts);
-        file.close();
-        fs::rename(part, target);
+        bytes = imageOf(data);
     } catch (const std::exception& error) {
-        std::error_code ignored;
-        fs::remove(part, ignored);
         throw std::runtime_error(target.string() + ": cannot be written: " + error.what());
     }
+    replaceFile(target, sealed(std::move(bytes)));
 }
 
 TrajectoryFile readTrajectory(const fs::path& source, bool withContacts) {
-    if (!fs::exists(source)) throw std::runtime_error(source.string() + ": there is no such trajectory file");
+    std::string bytes = readFile(source);
+    const Seal seal = removeSeal(bytes);
+    if (seal == Seal::Bad)
+        throw EnvironmentError(source, "is damaged: its checksum does not fit its content", 0);
+    // A file of an older version has no seal. If it is damaged, the HDF5 library may crash on it.
+    if (seal == Seal::Absent)
+        if (const auto failure = failureInChild([&] { (void)parsed(bytes, withContacts); }); !failure.empty())
+            throw EnvironmentError(source, "cannot be read as a trajectory: " + failure, 0);
     try {
-        Hdf5File file = Hdf5File::open(source);
-        const int format = file.integer("/", "rigor_trajectory");
-        if (format > kFormat)
-            throw std::runtime_error("written by a newer rigor: found format " + std::to_string(format) +
-                                     ", expected at most " + std::to_string(kFormat));
-        TrajectoryFile data;
-        data.scenario = file.text("/", "scenario");
-        data.spec = file.text("/", "spec");
-        data.caseId = file.text("/", "case_id");
-        data.dt = file.number("/", "dt");
-        data.stride = file.integer("/", "stride");
-        if (format > 1) data.contactStride = file.integer("/", "contact_stride");
-        int columns = 0;
-        data.times = file.readDoubles("/time", columns);
-        data.bodies = readBodies(file, "/bodies");
-        data.reference = readBodies(file, "/reference");
-        data.series = readSeries(file);
-        data.contactInstantsKnown = format > kLastWithoutInstants;
-        if (withContacts) data.contacts = readContacts(file);
-        return data;
+        return parsed(bytes, withContacts);
     } catch (const std::exception& error) {
-        throw std::runtime_error(source.string() + ": cannot be read as a trajectory: " + error.what());
+        throw EnvironmentError(source, std::string("cannot be read as a trajectory: ") + error.what(), 0);
+    }
+}
+
+std::string trajectoryProblem(const fs::path& file) {
+    try {
+        std::string bytes = readFile(file);
+        const Seal seal = removeSeal(bytes);
+        if (seal == Seal::Bad) return file.string() + ": is damaged: its checksum does not fit its content";
+        if (seal == Seal::Absent) (void)readTrajectory(file);
+        return "";
+    } catch (const EnvironmentError& error) {
+        return error.what();
     }
 }
 

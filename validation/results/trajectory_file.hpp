@@ -59,11 +59,15 @@ struct TrajectoryFile {
 /// True if the contacts of the step that begins at this frame are stored; the last frame begins none.
 bool contactsStored(const TrajectoryFile& file, std::size_t frame);
 
-/// Replaces `file` at once: it is the old one or the whole new one, never a part. Data read from an older
-/// format without instants of contacts are written in that format again. Throws std::runtime_error.
+/// Replaces `file` at once: it is the old one or the whole new one, never a part. A line with a checksum follows the
+/// HDF5 content (files.hpp: sealed). Data read from an older format without instants of contacts are written in that
+/// format again. Throws EnvironmentError for what the disk refuses, otherwise std::runtime_error.
 void writeTrajectory(const std::filesystem::path& file, const TrajectoryFile& data);
-/// Throws std::runtime_error naming the file when it can not be read. `withContacts` false leaves contacts
-/// empty.
+/// Throws EnvironmentError naming the file when it is missing, damaged, or no trajectory. The checksum is compared
+/// before the content is interpreted; a file without one is first tried in a child. `withContacts` false leaves
+/// contacts empty.
 TrajectoryFile readTrajectory(const std::filesystem::path& file, bool withContacts = true);
+/// Reason why a trajectory is not to be trusted (missing, damaged, unreadable), naming the file; "" if it is whole.
+std::string trajectoryProblem(const std::filesystem::path& file);
 
 }  // namespace rigor::results

@@ -237,6 +237,8 @@ struct Run {
     std::vector<FairnessRow> fairness;  ///< written when the run has ended
     Bench bench;                        ///< results of `rigor bench`
     std::int64_t plannedCases = 0;
+    /// Sentences about damage that was found on reading; damaged cases are left out. Not stored.
+    std::vector<std::string> damage = {};
 };
 
 }  // namespace rigor::results

@@ -180,6 +180,7 @@ TEST(BenchStore, ARunOfTheSchemaBeforeHasNone) {
         for (const char* column :
              {"scale", "relative_error", "ideal_error", "recorded", "order_min", "order_max", "order_count"})
             database.exec(std::string("ALTER TABLE metrics DROP COLUMN ") + column);
+        database.exec("DROP TABLE seals");
         database.exec("PRAGMA user_version = 4");
     }
     EXPECT_TRUE(readRun(folder.path()).bench.empty());

@@ -262,7 +262,12 @@ TEST(Store, AnalysisIsReplacedAsAWhole) {
     expectAnalysed(readRun(folder.path()));
 }
 
+void takeBackSeals(SQLite::Database& database) {
+    database.exec("DROP TABLE seals");
+}
+
 void takeBackFindings(SQLite::Database& database) {
+    takeBackSeals(database);
     database.exec("ALTER TABLE audit DROP COLUMN findings");
 }
 
