@@ -25,13 +25,15 @@ namespace rigor::cli {
 
 /// Exit codes, documented in `rigor --help` and the README.
 enum ExitCode : int {
-    kOk = 0,            ///< done; for `validate`: the conditions of runIsGreen() (runner.hpp) hold
-    kRed = 1,           ///< the run finished and something in it is red
-    kBadInput = 2,      ///< command line, scenario file or engine spec
-    kInternal = 3,      ///< the environment or Rigor itself failed
-    kUnsupported = 4,   ///< `run`: the engine lacks what the scenario needs
-    kCrashed = 5,       ///< `run`: the engine crashed
-    kNoReference = 6,   ///< nothing is red, but a reference did not finish, ran out of memory or crashed
+    kOk = 0,           ///< done; for `validate`: the conditions of runIsGreen() (runner.hpp) hold
+    kRed = 1,          ///< the run finished and something in it is red
+    kBadInput = 2,     ///< command line, scenario file or engine spec
+    kInternal = 3,     ///< the environment or Rigor itself failed
+    kUnsupported = 4,  ///< `run`: the engine lacks what the scenario needs
+    kCrashed = 5,      ///< `run`: the engine crashed
+    kNoReference = 6,  ///< nothing is red, but a reference did not finish, ran out of memory or crashed
+    kEnvironment =
+        7,  ///< no space, no permission, killed from outside, damaged files: nothing is said of an engine
     kInterrupted = 130  ///< Ctrl-C; `validate --resume` goes on
 };
 
@@ -39,6 +41,8 @@ enum ExitCode : int {
 using Action = std::function<int()>;
 
 void addValidate(CLI::App& app, Action& action);
+void addMerge(CLI::App& app, Action& action);
+void addSweep(CLI::App& app, Action& action);
 void addPieces(CLI::App& app, Action& action);
 void addRun(CLI::App& app, Action& action);
 void addBench(CLI::App& app, Action& action);

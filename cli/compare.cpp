@@ -11,6 +11,7 @@
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/comparison/recorded.hpp"
+#include "validation/results/files.hpp"
 #include "validation/results/store.hpp"
 
 namespace rigor::cli {
@@ -33,7 +34,13 @@ std::vector<Run> readRuns(const std::string& folders) {
     std::vector<Run> runs;
     std::istringstream list(folders);
     try {
-        for (std::string folder; std::getline(list, folder, ',');) runs.push_back(results::readRun(folder));
+        for (std::string folder; std::getline(list, folder, ',');) {
+            runs.push_back(results::readRun(folder));
+            if (!runs.back().damage.empty())
+                throw results::EnvironmentError(runs.back().damage.front() + ". Nothing is compared with it");
+        }
+    } catch (const results::EnvironmentError&) {
+        throw;
     } catch (const std::runtime_error& error) {
         throw std::invalid_argument(error.what());
     }

@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "scenarios/model/nearest.hpp"
+#include "validation/results/files.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -20,6 +21,7 @@ constexpr const char* kFooter =
     "Exit codes: 0 done and green, 1 something in the run is red, 2 bad command line or input file,\n"
     "            3 internal error, 4 the engine lacks what the scenario needs, 5 the engine crashed,\n"
     "            6 nothing is red, but a reference did not finish, ran out of memory or crashed,\n"
+    "            7 the environment failed (no space, no permission, killed from outside, damaged files),\n"
     "            130 interrupted (a run can be resumed).\n"
     "The launcher ./rigor builds first; ./rigor test builds and runs the tests, ./rigor test --all the slow\n"
     "ones too.\n"
@@ -109,6 +111,12 @@ int runProgram(int argc, char** argv, const Program& program) {
     } catch (const std::invalid_argument& error) {
         std::fprintf(stderr, "rigor: %s\n", error.what());
         return kBadInput;
+    } catch (const results::EnvironmentError& error) {
+        std::fprintf(stderr, "rigor: %s\n", error.what());
+        return kEnvironment;
+    } catch (const std::filesystem::filesystem_error& error) {
+        std::fprintf(stderr, "rigor: %s\n", error.what());
+        return kEnvironment;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "rigor: internal error: %s\n", error.what());
         return kInternal;

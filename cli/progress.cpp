@@ -10,6 +10,7 @@
 
 #include "cli/command.hpp"
 #include "reports/model/view_model.hpp"
+#include "validation/results/files.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -78,6 +79,19 @@ void ProgressLine::update(const validation::Progress& p) {
 void ProgressLine::finish() {
     if (shown_) std::fprintf(stderr, "\r\033[K");
     shown_ = false;
+}
+
+results::Run orStopped(ProgressLine& line, const std::string& again,
+                       const std::function<results::Run()>& work) {
+    try {
+        auto run = work();
+        line.finish();
+        return run;
+    } catch (const results::EnvironmentError& error) {
+        line.finish();
+        throw results::EnvironmentError(std::string("the run stopped: ") + error.what() +
+                                        ". No case is judged by it. Go on with: " + again);
+    }
 }
 
 }  // namespace rigor::cli

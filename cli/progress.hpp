@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "validation/runner/runner.hpp"
@@ -22,5 +23,9 @@ class ProgressLine {
     std::string liveText(const validation::Progress& progress) const;
     bool quiet_, live_, shown_ = false;
 };
+
+/// Runs `work` and clears the line. If the environment fails, the message gets the command that goes on with the run.
+results::Run orStopped(ProgressLine& line, const std::string& again,
+                       const std::function<results::Run()>& work);
 
 }  // namespace rigor::cli

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "cli/command.hpp"
+#include "validation/results/files.hpp"
 
 namespace rigor::cli {
 
@@ -20,8 +21,13 @@ void addReport(CLI::App& app, Action& action) {
     command->callback([directory, &action] {
         action = [directory] {
             try {
-                for (const auto& file : report::writeReports(*directory))
+                std::vector<std::string> problems;
+                for (const auto& file : report::writeReports(*directory, &problems))
                     std::printf("%s\n", file.string().c_str());
+                for (const auto& problem : problems) std::fprintf(stderr, "rigor: %s\n", problem.c_str());
+                if (!problems.empty()) return static_cast<int>(kEnvironment);
+            } catch (const results::EnvironmentError&) {
+                throw;
             } catch (const std::runtime_error& error) {  // no run, a broken one, or a folder we may not write
                 std::fprintf(stderr, "rigor: %s\n", error.what());
                 return static_cast<int>(kBadInput);

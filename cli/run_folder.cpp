@@ -44,7 +44,7 @@ fs::path chooseRunFolder(const std::string& out, bool resume, const std::string&
 }
 
 void prepareRunFolder(const fs::path& directory, bool resume) {
-    const bool holdsRun = fs::exists(directory / "results.sqlite");
+    const bool holdsRun = results::holdsStore(directory);
     if (resume && !holdsRun)
         throw std::invalid_argument("--resume: '" + directory.string() + "' holds no run");
     if (!resume && holdsRun)

@@ -70,9 +70,13 @@ int runStudy(const StudyArguments& a) {
     }
     const std::atomic<bool>& interrupted = catchInterrupts();
     ProgressLine line(a.quiet);
-    const auto run = validation::runStudyCases(
-        plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
-    line.finish();
+    std::string again = options.command;
+    if (!a.resume) again += " --resume";
+    if (a.out.empty()) again += " --out " + options.directory.string();
+    const auto run = orStopped(line, again, [&] {
+        return validation::runStudyCases(
+            plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
+    });
     if (interrupted) {
         std::fprintf(stderr, "Interrupted: %zu of %zu cases are stored. Go on with --resume --out %s\n",
                      run.cases.size(), plan.cases.size(), options.directory.c_str());

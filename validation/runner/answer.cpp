@@ -2,14 +2,15 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "validation/runner/answer.hpp"
 
+#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <type_traits>
 
 #include "validation/results/fields.hpp"
+#include "validation/results/files.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -128,20 +129,18 @@ CaseRow caseFromJson(const json& j) {
 }
 
 void writeJsonFile(const std::filesystem::path& file, const json& content) {
-    std::filesystem::path part = file;
-    part += ".part";
-    {
-        std::ofstream out(part, std::ios::trunc);
-        out << content.dump(-1, ' ', false, json::error_handler_t::replace);
-        if (!out.flush()) throw std::runtime_error(part.string() + ": cannot be written");
-    }
-    std::filesystem::rename(part, file);
+    results::replaceScratchFile(file, content.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 std::optional<json> readJsonFile(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in) return std::nullopt;
-    json content = json::parse(in, nullptr, false);
+    std::string text;
+    try {
+        text = results::readFile(file);
+    } catch (const results::EnvironmentError& error) {
+        if (error.code() == ENOENT) return std::nullopt;
+        throw;
+    }
+    json content = json::parse(text, nullptr, false);
     if (content.is_discarded()) return std::nullopt;
     return content;
 }

@@ -24,9 +24,9 @@ double numberFromJson(const nlohmann::json& json);
 /// A double in a file for other programs: a number, or null where it is not finite.
 nlohmann::json finiteToJson(double value);
 
-/// Writes beside the target and renames. Throws std::runtime_error.
+/// Writes beside the target and renames. Throws results::EnvironmentError.
 void writeJsonFile(const std::filesystem::path& file, const nlohmann::json& json);
-/// Empty when there is no file or it is no JSON.
+/// Empty when there is no file or it is no JSON. Throws results::EnvironmentError if the system refuses to read it.
 std::optional<nlohmann::json> readJsonFile(const std::filesystem::path& file);
 
 }  // namespace rigor::validation

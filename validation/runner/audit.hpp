@@ -88,10 +88,13 @@ bool hasAuditablePairs(const scenario::Scenario& scenario);
 class AuditQueue {
   public:
     using Deliver = std::function<void(const std::string& caseId, std::vector<results::AuditRow>)>;
+    /// Called with the reason when a child was killed from outside: its cases stay without an audit.
+    using Disturbed = std::function<void(const std::string& reason)>;
     struct Files {
         std::filesystem::path binary, run, scratch;
     };
-    AuditQueue(ProcessPool& pool, Files files, std::vector<std::string> auditors, Deliver deliver);
+    AuditQueue(ProcessPool& pool, Files files, std::vector<std::string> auditors, Deliver deliver,
+               Disturbed disturbed);
     ~AuditQueue();
 
     /// Cases of one scenario: id to trajectory file (relative to the run).
@@ -111,6 +114,7 @@ class AuditQueue {
     Files files_;
     std::vector<std::string> auditors_;
     Deliver deliver_;
+    Disturbed disturbed_;
     int next_ = 0;
 };
 

@@ -43,10 +43,16 @@ struct AuditQueue::Batch {
     std::map<std::string, std::map<std::string, AuditRow>> rows;  ///< rows by case and auditor
     std::map<std::string, std::map<std::string, std::vector<AuditAnswer>>> answers;
     int pending = 0;
+    bool isDisturbed = false;  ///< a result is missing for reasons that are no auditor's
 };
 
-AuditQueue::AuditQueue(ProcessPool& pool, Files files, std::vector<std::string> auditors, Deliver deliver)
-    : pool_(pool), files_(std::move(files)), auditors_(std::move(auditors)), deliver_(std::move(deliver)) {}
+AuditQueue::AuditQueue(ProcessPool& pool, Files files, std::vector<std::string> auditors, Deliver deliver,
+                       Disturbed disturbed)
+    : pool_(pool),
+      files_(std::move(files)),
+      auditors_(std::move(auditors)),
+      deliver_(std::move(deliver)),
+      disturbed_(std::move(disturbed)) {}
 AuditQueue::~AuditQueue() = default;
 
 void AuditQueue::add(const std::string& scenario, const std::string& scenarioText,
@@ -69,6 +75,7 @@ void AuditQueue::add(const std::string& scenario, const std::string& scenarioTex
                    kPrepareLimits,
                    "contact audit: " + scenario,
                    [this, batch](const ProcessResult& result) {
+                       if (!result.disturbance.empty()) return disturbed_(result.disturbance);
                        const auto queries = readJsonFile(batch->queries);
                        if (!result.exitedWith(0) || !queries) {
                            for (const auto& [id, file] : batch->cases)
@@ -81,7 +88,8 @@ void AuditQueue::add(const std::string& scenario, const std::string& scenarioTex
                        batch->pending = 1;
                        for (const auto& auditor : auditors_) startQueries(batch, auditor, "");
                        finishOne(batch);
-                   }});
+                   },
+                   true});
 }
 
 void AuditQueue::startQueries(const std::shared_ptr<Batch>& batch, const std::string& auditor,
@@ -101,14 +109,18 @@ void AuditQueue::startQueries(const std::shared_ptr<Batch>& batch, const std::st
                    "contact audit: " + batch->scenario + ", " + auditor,
                    [this, batch, auditor, onlyCase, answer](const ProcessResult& result) {
                        answered(batch, auditor, onlyCase, result, answer);
-                   }});
+                   },
+                   true});
 }
 
 void AuditQueue::answered(const std::shared_ptr<Batch>& batch, const std::string& auditor,
                           const std::string& onlyCase, const ProcessResult& result,
                           const std::filesystem::path& answer) {
     const auto rows = readJsonFile(answer);
-    if (result.exitedWith(0) && rows) {
+    if (!result.disturbance.empty()) {
+        batch->isDisturbed = true;
+        disturbed_(result.disturbance);
+    } else if (result.exitedWith(0) && rows) {
         for (const auto& [id, said] : rows->items()) {
             batch->rows[id][auditor] = auditFromJson(said.at("row"));
             for (const json& a : said.at("answers")) batch->answers[id][auditor].push_back(answerFromJson(a));
@@ -125,6 +137,9 @@ void AuditQueue::answered(const std::shared_ptr<Batch>& batch, const std::string
 
 void AuditQueue::finishOne(const std::shared_ptr<Batch>& batch) {
     if (--batch->pending > 0) return;
+    std::error_code ignored;
+    std::filesystem::remove(batch->queries, ignored);
+    if (batch->isDisturbed) return;
     for (auto& [id, byAuditor] : batch->rows) {
         std::vector<AuditRow> rows{byAuditor["oracle"], byAuditor[kInRun]};
         for (const auto& auditor : auditors_)
@@ -136,8 +151,6 @@ void AuditQueue::finishOne(const std::shared_ptr<Batch>& batch) {
                     rows.push_back(std::move(row));
         deliver_(id, std::move(rows));
     }
-    std::error_code ignored;
-    std::filesystem::remove(batch->queries, ignored);
 }
 
 }  // namespace rigor::validation

@@ -7,13 +7,15 @@
 
 #include <unistd.h>
 
+#include <fcntl.h>
+#include <cerrno>
 #include <cstdio>
-#include <fstream>
 #include <new>
 #include <nlohmann/json.hpp>
 
 #include "adapters/interface/engine_failure.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "validation/results/files.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/audit.hpp"
 #include "validation/runner/describe.hpp"
@@ -87,7 +89,7 @@ LiveOptions optionsOf(const json& request, const ReferenceMaker& make) {
     }
     options.onSimulated = [mark = request.at("simulated").get<std::string>(),
                            seconds = numberFromJson(request.at("reference_seconds"))] {
-        std::ofstream(mark) << "\n";
+        results::replaceScratchFile(mark, "\n");
         setAlarm(seconds * timeLimitFactor());
     };
     return options;
@@ -102,12 +104,23 @@ std::vector<results::MetricRow> piecesOf(const scenario::Scenario& s, const adap
         s, dt, every, [&](double step) { return engine->dynamics()->build(s, step, settings); }, reference);
 }
 
-/// The reference has been evaluated completely: its time and its mark end.
-void endReference(const json& request) {
-    setAlarm(0.0);
+void removeMark(const json& request) {
     std::error_code ignored;
     if (request.contains("simulated"))
         std::filesystem::remove(request.at("simulated").get<std::string>(), ignored);
+}
+
+/// The reference has been evaluated completely: its time and its mark end.
+void endReference(const json& request) {
+    setAlarm(0.0);
+    removeMark(request);
+}
+
+/// A library that finds no file handle reports it in words of its own. Throws EnvironmentError if there is none.
+void checkHandles() {
+    const int file = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (file < 0) throw results::EnvironmentError("/dev/null", "cannot be opened", errno);
+    close(file);
 }
 
 CaseRow runRequested(const json& request, const scenario::Scenario& s, const adapter::EngineSpec& spec,
@@ -139,6 +152,7 @@ int caseChild(const std::filesystem::path& requestFile, const ReferenceMaker& ma
                                                             request->at("scenario").get<std::string>())
                                      .scenario;
     const adapter::EngineSpec spec = adapter::parseSpec(request->at("spec").get<std::string>());
+    removeMark(*request);  // An attempt that was killed from outside may have left it.
     CaseRow row;
     bool ran = false;
     try {
@@ -148,7 +162,10 @@ int caseChild(const std::filesystem::path& requestFile, const ReferenceMaker& ma
         row = refusedRow(*request, spec, error);
     } catch (const adapter::EngineFailure& failure) {
         row = refusedRow(*request, spec, outcomeOf(failure), failure.what());
+    } catch (const results::EnvironmentError&) {
+        throw;
     } catch (const std::exception& error) {
+        checkHandles();
         row = refusedRow(*request, spec, Outcome::Error, error.what());
     }
     if (!ran) judgeCase(row, s);
@@ -176,9 +193,19 @@ int childMain(const std::vector<std::string>& arguments, const ChildEntries& mor
     std::set_new_handler(onOutOfMemory);
     int code = 1;
     try {
-        code = dispatch(arguments, more, make ? make : ReferenceMaker(makeReference));
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
+        try {
+            code = dispatch(arguments, more, make ? make : ReferenceMaker(makeReference));
+        } catch (const results::EnvironmentError&) {
+            throw;
+        } catch (const std::filesystem::filesystem_error& error) {
+            throw results::EnvironmentError(error.path1(), error.what(), error.code().value());
+        } catch (const std::exception& error) {
+            std::fprintf(stderr, "%s\n", error.what());
+            checkHandles();
+        }
+    } catch (const results::EnvironmentError& error) {
+        std::fprintf(stderr, "\n%s%s\n", kEnvironmentMark, error.what());
+        code = kExitEnvironment;
     }
     // The result is on the disk: what a library does while it is taken down is no part of it.
     std::fflush(nullptr);

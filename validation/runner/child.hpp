@@ -7,5 +7,8 @@
 namespace rigor::validation {
 
 inline constexpr int kExitOutOfMemory = 86;  ///< operator new found no memory
+/// The environment failed (results::EnvironmentError): the line that begins with kEnvironmentMark says how.
+inline constexpr int kExitEnvironment = 87;
+inline constexpr const char* kEnvironmentMark = "rigor-environment: ";
 
 }  // namespace rigor::validation

@@ -2,12 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "validation/runner/describe.hpp"
 
-#include <stdlib.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -77,18 +73,6 @@ class DescribedEngine final : public adapter::EngineWithPresets {
 };
 
 }  // namespace
-
-ScratchFolder::ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "rigor-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-        throw std::runtime_error("cannot make a temporary folder " + name + ": " + std::strerror(errno));
-    path_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
 
 int describeChild(const std::string& engine, const std::filesystem::path& answer) {
     const adapter::LoadedEngine loaded = adapter::loadEngine(adapter::parseSpec(engine));

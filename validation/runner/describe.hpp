@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "validation/runner/runner.hpp"
+#include "validation/runner/scratch_folder.hpp"
 
 namespace rigor::validation {
 
@@ -39,18 +40,5 @@ void checkSpecs(const std::vector<adapter::EngineSpec>& specs, const std::filesy
 /// The same of every spec of a plan, with the settings that scenarios give engines; to be called before
 /// anything is run or written.
 void checkPlan(const std::vector<CasePlan>& plan, const std::filesystem::path& binary);
-
-/// A folder for requests and results that goes away with its owner.
-class ScratchFolder {
-  public:
-    ScratchFolder();
-    ~ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 }  // namespace rigor::validation

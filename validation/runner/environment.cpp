@@ -8,6 +8,8 @@
 #include <ctime>
 #include <fstream>
 
+#include "validation/hash.hpp"
+
 namespace rigor::validation {
 namespace {
 
@@ -46,6 +48,14 @@ std::string caches() {
     return text.empty() ? "unknown" : text;
 }
 
+/// Tells machines apart without giving their names.
+std::string machine(const char* name) {
+    Fnv1a hash;
+    hash.text(name);
+    hash.text(firstWord("/etc/machine-id"));
+    return hash.hex();
+}
+
 std::string compiler() {
 #if defined(__clang__)
     return "clang " __clang_version__;
@@ -74,6 +84,7 @@ std::map<std::string, std::string> describeEnvironment() {
             {"libraries", RIGOR_LIBRARIES},
             {"governor", firstWord("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor")},
             {"load", firstWord("/proc/loadavg")},
+            {"machine", machine(system.nodename)},
             {"rigor", RIGOR_VERSION},
             {"date", isoTime()}};
 }

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "validation/runner/header.hpp"
 
-#include <fstream>
 #include <set>
 
 #include "scenarios/loader/loader.hpp"
 #include "validation/references/reference.hpp"
+#include "validation/results/files.hpp"
 #include "validation/results/values.hpp"
 #include "validation/runner/describe.hpp"
 #include "validation/runner/environment.hpp"
@@ -74,14 +74,11 @@ std::string reproduceCommand(const CasePlan& plan, const fs::path& run, bool fro
 }
 
 void writeScenarioFiles(const std::vector<CasePlan>& plan, const fs::path& run) {
-    fs::create_directories(run / "scenarios");
+    results::createFolders(run / "scenarios");
     std::set<std::string> written;
     for (const CasePlan& c : plan) {
         if (!written.insert(c.scenario.name).second) continue;
-        const fs::path file = storedScenario(c.scenario.name, run);
-        std::ofstream out(file, std::ios::trunc);
-        out << c.scenarioText;
-        if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+        results::replaceFile(storedScenario(c.scenario.name, run), c.scenarioText);
     }
 }
 
@@ -106,6 +103,13 @@ results::Run runHeader(const std::vector<CasePlan>& plan, const RunOptions& opti
     run.started = isoTime();
     run.environment = describeEnvironment();
     run.environment["jobs"] = std::to_string(options.jobs);
+    if (options.shard) {
+        run.environment[kShardKey] =
+            std::to_string(options.shard->number) + "/" + std::to_string(options.shard->count);
+        run.environment[kPlanKey] = options.shard->plan;
+        run.environment[kShardVersionKey] = RIGOR_VERSION;
+        run.environment[kPlannedKey] = std::to_string(options.shard->planned);
+    }
     for (const EngineDescription& d : engines) {
         run.engines.push_back(engineRow(d));
         if (d.problem.empty())

@@ -8,6 +8,16 @@
 
 namespace rigor::validation {
 
+/// Keys of the environment of a shard: "2/8"; hash of the ids of the whole plan; number of its cases.
+inline constexpr const char* kShardKey = "shard";
+inline constexpr const char* kPlanKey = "shard_plan";
+inline constexpr const char* kPlannedKey = "shard_planned";
+/// Key of the version of the program that made a shard.
+inline constexpr const char* kShardVersionKey = "shard_version";
+/// Key of the machine that ran the cases (a hash of its name), and of those that ran earlier parts of the run.
+inline constexpr const char* kMachineKey = "machine";
+inline constexpr const char* kEarlierMachinesKey = "earlier_machines";
+
 /// Checks of the references of all scenarios of a plan, by scenario name: those of the options, and for the
 /// others the results of a child.
 std::map<std::string, ReferenceCheck> plannedReferences(const std::vector<CasePlan>& plan,

@@ -8,10 +8,10 @@
 
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+
+#include "validation/results/files.hpp"
 
 namespace rigor::validation {
 
@@ -39,7 +39,7 @@ void LineWriter::add(const json& value) {
 }
 
 void LineWriter::refuse() const {
-    throw std::runtime_error(name_ + ": " + std::strerror(errno));
+    throw results::EnvironmentError(name_, "cannot be written", errno);
 }
 
 std::vector<json> readJsonLines(const std::filesystem::path& file) {

@@ -14,7 +14,7 @@ namespace rigor::validation {
 
 class LineWriter {
   public:
-    /// A new file, or with `append` the end of one. Throws std::runtime_error.
+    /// A new file, or with `append` the end of one. Throws results::EnvironmentError.
     explicit LineWriter(const std::string& file, bool append = false);
     ~LineWriter();
     LineWriter(const LineWriter&) = delete;

@@ -164,6 +164,7 @@ void OpenOrders::open(std::size_t index, CaseRow row, int others) {
 
 std::optional<CaseRow> OpenOrders::ended(std::size_t index, OrderEnd end) {
     const auto it = cases_.find(index);
+    if (it == cases_.end()) return std::nullopt;
     it->second.ends.push_back(std::move(end));
     if (--it->second.missing > 0) return std::nullopt;
     CaseRow row = std::move(it->second.row);

@@ -39,7 +39,9 @@ void addNoOrders(results::CaseRow& row);
 class OpenOrders {
   public:
     void open(std::size_t index, results::CaseRow row, int others);
-    /// The whole row when this was the last of its orders.
+    /// Forgets a case of which an order was disturbed from outside.
+    void abandon(std::size_t index) { cases_.erase(index); }
+    /// The whole row when this was the last of its orders; none for a case that was abandoned.
     std::optional<results::CaseRow> ended(std::size_t index, OrderEnd end);
 
   private:

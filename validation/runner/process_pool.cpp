@@ -11,10 +11,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <ctime>
-#include <stdexcept>
+#include <fstream>
 
+#include "validation/results/files.hpp"
+#include "validation/runner/child.hpp"
+#include "validation/runner/descendants.hpp"
 #include "validation/runner/start_program.hpp"
 
 namespace rigor::validation {
@@ -35,6 +37,37 @@ double processorTimeOf(pid_t pid) {
 /// A child that has done nothing for so long is blocked: on a busy machine it would have had its turn.
 constexpr auto kBlocked = std::chrono::seconds(2);
 
+/// Number of processes that the system has killed for want of memory; 0 if it does not count them.
+std::int64_t memoryKillsOfSystem() {
+    std::ifstream in("/proc/vmstat");
+    std::string key;
+    for (std::int64_t value = 0; in >> key >> value;)
+        if (key == "oom_kill") return value;
+    return 0;
+}
+
+/// Signals by which people, batch systems and the system itself end a process; an engine's fault raises others.
+bool isFromOutside(int status) {
+    if (!WIFSIGNALED(status)) return false;
+    const int signal = WTERMSIG(status);
+    return signal == SIGKILL || signal == SIGTERM || signal == SIGINT || signal == SIGHUP ||
+           signal == SIGQUIT;
+}
+
+/// The message of a child whose environment failed; "" for any other end.
+std::string environmentFailure(const ProcessResult& result) {
+    // The loader of the system ends a program so whose libraries it cannot load.
+    constexpr int kExitLoader = 127;
+    constexpr const char* kLoaderMessage = "error while loading shared libraries: ";
+    const bool isLoader = result.exitedWith(kExitLoader);
+    if (!isLoader && !result.exitedWith(kExitEnvironment)) return "";
+    const std::string mark = isLoader ? kLoaderMessage : kEnvironmentMark;
+    const auto at = result.outputTail.rfind(mark);
+    if (at == std::string::npos) return "";
+    const auto from = at + (isLoader ? 0 : mark.size());
+    return result.outputTail.substr(from, result.outputTail.find('\n', from) - from);
+}
+
 }  // namespace
 
 double timeLimitFactor() {
@@ -49,13 +82,17 @@ std::string ProcessResult::ending() const {
     return endingOf(status);
 }
 
+ProcessPool::ProcessPool(int slots) : slots_(slots) {
+    adoptOrphans();
+}
+
 ProcessPool::~ProcessPool() {
     killAll();
 }
 
 void ProcessPool::start(ProcessTask task) {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
+    if (pipe2(ends, O_CLOEXEC) != 0) throw results::EnvironmentError("pipe: " + results::errorText(errno));
     fcntl(ends[0], F_SETFL, O_NONBLOCK);
     pid_t pid = -1;
     try {
@@ -70,6 +107,8 @@ void ProcessPool::start(ProcessTask task) {
     const auto limit = std::chrono::duration<double>(task.limits.seconds * timeLimitFactor());
     Running& child = running_.emplace_back();
     child.task = std::move(task);
+    ++child.task.starts;
+    child.memoryKills = memoryKillsOfSystem();
     child.pid = pid;
     child.output = ends[0];
     child.started = now;
@@ -124,6 +163,7 @@ bool ProcessPool::collect(Running& child) {
         return false;
     }
     kill(-child.pid, SIGKILL);  // whatever it may have started
+    killDescendants(child.pid);
     if (child.output >= 0) {
         drainOutput(child.output, result.outputTail);
         close(child.output);
@@ -143,18 +183,34 @@ void ProcessPool::killAll() {
         int status = 0;
         while (waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
         }
+        killDescendants(child.pid);
         if (child.output >= 0) close(child.output);
     }
     running_.clear();
 }
 
-bool ProcessPool::run(const std::atomic<bool>& interrupted,
-                      const std::function<void(const std::string&)>& onStart) {
-    while (!waiting_.empty() || !running_.empty()) {
-        if (interrupted) {
-            killAll();
-            return false;
-        }
+/// Hands over what a child gave, or starts it again.
+void ProcessPool::settle(Running ended) {
+    ProcessTask& task = ended.task;
+    ProcessResult& result = ended.result;
+    if (const std::string failure = environmentFailure(result); !failure.empty())
+        throw results::EnvironmentError(failure);
+    if (!result.timedOut && isFromOutside(result.status)) {
+        if (memoryKillsOfSystem() > ended.memoryKills) ++task.outOfMemory;
+        if (task.starts < kMostStarts) return addNext(std::move(task));
+        // The system was short of memory each time: then the work itself needs too much of it.
+        if (task.outOfMemory < kMostStarts)
+            result.disturbance = task.name + ": killed from outside " + std::to_string(kMostStarts) +
+                                 " times, the last time by " + result.ending();
+    }
+    if (!result.disturbance.empty() && !task.mayBeDisturbed)
+        throw results::EnvironmentError(result.disturbance);
+    task.done(result);
+}
+
+void ProcessPool::runAll(const std::atomic<bool>& interrupted,
+                         const std::function<void(const std::string&)>& onStart) {
+    while (!interrupted && (!waiting_.empty() || !running_.empty())) {
         while (!waiting_.empty() && running_.size() < static_cast<std::size_t>(std::max(1, slots_))) {
             ProcessTask task = std::move(waiting_.front());
             waiting_.pop_front();
@@ -168,12 +224,24 @@ bool ProcessPool::run(const std::atomic<bool>& interrupted,
                 ++i;
                 continue;
             }
-            const Running ended = std::move(running_[i]);
+            Running ended = std::move(running_[i]);
             running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
-            ended.task.done(ended.result);
+            settle(std::move(ended));
         }
     }
-    return true;
+}
+
+bool ProcessPool::run(const std::atomic<bool>& interrupted,
+                      const std::function<void(const std::string&)>& onStart) {
+    try {
+        runAll(interrupted, onStart);
+    } catch (...) {
+        killAll();
+        throw;
+    }
+    if (!interrupted) return true;
+    killAll();
+    return false;
 }
 
 }  // namespace rigor::validation

@@ -2,7 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Child processes with limits, a few at a time, from one thread. Each child leads its own process group, has
-// no core dump and no input, and dies with this process, however this process ends.
+// no core dump and no input, and dies with this process, however this process ends. What it started dies with it.
+//
+// Two ends of a child say nothing about its work. If the environment failed (no space, no permission, no file
+// handles: kExitEnvironment), run() throws. A child that was killed from outside is started again, up to
+// kMostStarts times.
 #pragma once
 
 #include <sys/types.h>
@@ -27,6 +31,7 @@ struct ProcessLimits {
 };
 
 inline constexpr double kMostWaiting = 20.0;
+inline constexpr int kMostStarts = 3;
 
 struct ProcessResult {
     bool timedOut = false;
@@ -34,6 +39,8 @@ struct ProcessResult {
     std::string outputTail;  ///< last few KiB of stdout and stderr together
     double wallSeconds = 0.0, cpuSeconds = 0.0;
     std::int64_t peakMemoryKiB = 0;
+    /// Not empty if every attempt was killed from outside: then nothing is known of the work.
+    std::string disturbance;
 
     bool exitedWith(int code) const;
     /// "SIGSEGV (Segmentation fault)", "exit code 3".
@@ -45,11 +52,15 @@ struct ProcessTask {
     ProcessLimits limits;
     std::string name;                                ///< name for the progress line
     std::function<void(const ProcessResult&)> done;  ///< called at the end; may add tasks
+    /// True if `done` takes a result with a disturbance; otherwise run() throws.
+    bool mayBeDisturbed = false;
+    int starts = 0;       ///< number of times that it was started
+    int outOfMemory = 0;  ///< number of these that ended while the system killed a process for want of memory
 };
 
 class ProcessPool {
   public:
-    explicit ProcessPool(int slots) : slots_(slots) {}
+    explicit ProcessPool(int slots);
     ~ProcessPool();
     ProcessPool(const ProcessPool&) = delete;
     ProcessPool& operator=(const ProcessPool&) = delete;
@@ -59,7 +70,8 @@ class ProcessPool {
     void addNext(ProcessTask task) { waiting_.push_front(std::move(task)); }
 
     /// Runs until nothing is left (true), or until `interrupted` (false; all children are dead then).
-    /// `onStart` is called when a child was started. Throws std::runtime_error when none can be started.
+    /// `onStart` is called when a child was started. Throws results::EnvironmentError when none can be started, and
+    /// when the environment of a child failed; all children are dead then.
     bool run(const std::atomic<bool>& interrupted, const std::function<void(const std::string&)>& onStart);
 
   private:
@@ -69,14 +81,17 @@ class ProcessPool {
         pid_t pid = -1;
         int output = -1;
         Clock::time_point started, deadline;
-        double cpuSeen = 0.0;        ///< processor time when it was last checked after the deadline [s]
-        Clock::time_point workedAt;  ///< time at which that had grown
+        double cpuSeen = 0.0;          ///< processor time when it was last checked after the deadline [s]
+        Clock::time_point workedAt;    ///< time at which that had grown
+        std::int64_t memoryKills = 0;  ///< number of kills by the system before its start
         ProcessResult result;
     };
     void start(ProcessTask task);
     void waitForEvents();
     bool collect(Running& child);
     static bool isOverTime(Running& child);
+    void settle(Running ended);
+    void runAll(const std::atomic<bool>& interrupted, const std::function<void(const std::string&)>& onStart);
     void killAll();
 
     int slots_;

@@ -100,7 +100,7 @@ ReferenceCheck referenceFailure(bool timedOut, int status, const ReferenceLimits
                 "the reference needed more memory than " + std::to_string(limits.memoryMiB) + " MiB"};
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
         return {ReferenceOutcome::OutOfMemory,
-                "the reference was killed from outside: the system ran out of memory"};
+                "the system ran out of memory each time the reference was computed"};
     return {ReferenceOutcome::Crashed, "the reference crashed: " + endingOf(status)};
 }
 

@@ -10,7 +10,9 @@
 
 #include "validation/comparison/refinements.hpp"
 #include "validation/comparison/regression.hpp"
+#include "validation/results/files.hpp"
 #include "validation/results/store.hpp"
+#include "validation/results/trajectory_file.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/audit.hpp"
 #include "validation/runner/child.hpp"
@@ -66,7 +68,8 @@ CaseRow failedRow(const CasePlan& plan, std::int64_t position, const ProcessResu
         row.reason = "the memory limit was reached";
     } else if (WIFSIGNALED(result.status) && WTERMSIG(result.status) == SIGKILL) {
         row.outcome = Outcome::OutOfMemory;
-        row.reason = "SIGKILL from outside: the system ran out of memory";
+        row.reason = "the system ran out of memory in each of " + std::to_string(kMostStarts) +
+                     " attempts; the last one held " + std::to_string(result.peakMemoryKiB / 1024) + " MiB";
     } else {
         row.outcome = Outcome::Crashed;
         row.reason = result.ending();
@@ -76,6 +79,20 @@ CaseRow failedRow(const CasePlan& plan, std::int64_t position, const ProcessResu
         row.reason += "; it said: " + said;
     judgeCase(row, plan.scenario);
     return row;
+}
+
+/// Removes what a killed child may have left half-written of a file.
+void removePart(fs::path file) {
+    std::error_code ignored;
+    fs::remove(file += ".part", ignored);
+}
+
+/// The same of every file of a run.
+void removeParts(const fs::path& run) {
+    std::error_code ignored;
+    for (const fs::path& folder : {run, run / "trajectories", run / "scenarios"})
+        for (const auto& entry : fs::directory_iterator(folder, ignored))
+            if (entry.path().extension() == ".part") fs::remove(entry.path(), ignored);
 }
 
 class RunInProgress {
@@ -91,11 +108,9 @@ class RunInProgress {
 
     results::Run run(const std::atomic<bool>& interrupted) {
         prepare();
-        const bool complete = pool_.run(interrupted, [&](const std::string& name) {
-            progress_.current = name;
-            report(nullptr);
-        });
+        const bool complete = runTasks(interrupted);
         audits_.reset();
+        if (complete && !disturbances_.empty()) throw results::EnvironmentError(disturbanceText());
         auto stored = results::readRun(directory_);
         if (complete) finish(stored);
         stored.directory = options_.directory.string();
@@ -103,6 +118,25 @@ class RunInProgress {
     }
 
   private:
+    bool runTasks(const std::atomic<bool>& interrupted) {
+        try {
+            return pool_.run(interrupted, [&](const std::string& name) {
+                progress_.current = name;
+                report(nullptr);
+            });
+        } catch (const results::EnvironmentError&) {
+            removeParts(directory_);
+            throw;
+        }
+    }
+
+    std::string disturbanceText() const {
+        std::string text = disturbances_.front();
+        if (disturbances_.size() > 1)
+            text += "; " + std::to_string(disturbances_.size() - 1) + " more children likewise";
+        return text + ". Their results are missing";
+    }
+
     /// Adds the results of all cases together, then the mark of the end.
     void finish(results::Run& run) {
         run.orders = observedOrders(run);
@@ -120,10 +154,13 @@ class RunInProgress {
         for (const CasePlan& c : plan_) ids.push_back(c.id);
         std::map<std::string, CaseRow> present;
         if (options_.resume) {
+            removeParts(directory_);
             writer_.keepOnly(ids);
             const auto stored = results::readRun(directory_);
             if (!stored.started.empty()) header.started = stored.started;
-            for (const CaseRow& row : stored.cases) present[row.id] = row;
+            for (const CaseRow& row : stored.cases)
+                if (isWhole(row)) present[row.id] = row;
+            if (isOfAnotherMachine(stored, header)) dropBegunScenarios(present);
         }
         writer_.writeHeader(header);
         writeScenarioFiles(plan_, directory_);
@@ -155,8 +192,37 @@ class RunInProgress {
                 pool_, AuditQueue::Files{options_.binary, directory_, scratch_.path()}, auditors,
                 [this](const std::string& id, std::vector<results::AuditRow> rows) {
                     audited(id, std::move(rows));
-                });
+                },
+                [this](const std::string& reason) { disturbances_.push_back(reason); });
         return engines;
+    }
+
+    /// Notes an earlier machine in the new header.
+    static bool isOfAnotherMachine(const results::Run& stored, results::Run& header) {
+        const auto valueOf = [&](const char* key) {
+            const auto it = stored.environment.find(key);
+            return it == stored.environment.end() ? std::string() : it->second;
+        };
+        std::string earlier = valueOf(kEarlierMachinesKey);
+        const std::string last = valueOf(kMachineKey);
+        const bool isOther = !last.empty() && last != header.environment[kMachineKey];
+        if (isOther) earlier += (earlier.empty() ? "" : "; ") + last + " (" + valueOf("cpu") + ")";
+        if (!earlier.empty()) header.environment[kEarlierMachinesKey] = earlier;
+        return isOther;
+    }
+
+    /// Timings of two machines never meet in one comparison: a scenario is run on one of them as a whole.
+    void dropBegunScenarios(std::map<std::string, CaseRow>& present) const {
+        std::set<std::string> begun;
+        for (const CasePlan& c : plan_)
+            if (!present.contains(c.id)) begun.insert(c.scenario.name);
+        std::erase_if(present, [&](const auto& entry) { return begun.contains(entry.second.scenario); });
+    }
+
+    /// The trajectory that a stored case names is there and undamaged.
+    bool isWhole(const CaseRow& row) const {
+        return row.trajectoryFile.empty() ||
+               results::trajectoryProblem(directory_ / row.trajectoryFile).empty();
     }
 
     /// A case that an earlier part of the run has stored.
@@ -213,7 +279,8 @@ class RunInProgress {
         return {{options_.binary.string(), "__case", request.string()},
                 {c.scenario.timeLimit * runsOfCase(), options_.memoryLimitMiB},
                 c.scenario.name + ", " + c.spec.text(),
-                [this, index](const ProcessResult& result) { ended(index, result); }};
+                [this, index](const ProcessResult& result) { ended(index, result); },
+                true};
     }
 
     static std::string orderName(const CasePlan& c, int number) {
@@ -234,7 +301,8 @@ class RunInProgress {
                 {c.scenario.timeLimit, options_.memoryLimitMiB},
                 c.scenario.name + ", " + c.spec.text() + ", order " + std::to_string(number + 1) + " of " +
                     std::to_string(others + 1),
-                [this, index, number](const ProcessResult& result) { orderEnded(index, number, result); }};
+                [this, index, number](const ProcessResult& result) { orderEnded(index, number, result); },
+                true};
     }
 
     /// Limits of a reference within a case, which computes all metrics in that time and memory as well.
@@ -257,7 +325,7 @@ class RunInProgress {
     /// A child that died over the reference is run once more without one: the engine is not to blame.
     bool repeatedWithoutReference(std::size_t index, const ProcessResult& result) {
         if (!endedOverReference(plan_[index].id, result)) return false;
-        removePart(plan_[index].id);
+        removePart(directory_ / trajectoryName(plan_[index].id));
         const auto limits = referenceLimitsOf(plan_[index]);
         brokenReferences_[index] = referenceFailure(result.timedOut, result.status, limits);
         pool_.addNext(taskOf(index, brokenReferences_[index]));
@@ -285,10 +353,11 @@ class RunInProgress {
 
     void ended(std::size_t index, const ProcessResult& result) {
         const CasePlan& c = plan_[index];
+        if (!result.disturbance.empty()) return disturbances_.push_back(result.disturbance);
         if (repeatedWithoutReference(index, result)) return;
         CaseRow row = rowOf(index, c.id, result);
         row.command = reproduceCommand(c, options_.directory, fromLibrary_[c.scenario.name]);
-        removePart(c.id);
+        removePart(directory_ / trajectoryName(c.id));
         if (options_.orders < 2 || !isRunInOrders(row)) return store(index, row);
         const int others = otherOrders(c.scenario, options_.orders);
         if (others == 0) {
@@ -302,6 +371,10 @@ class RunInProgress {
     void orderEnded(std::size_t index, int number, const ProcessResult& result) {
         const CasePlan& c = plan_[index];
         const std::string name = orderName(c, number);
+        if (!result.disturbance.empty()) {
+            openOrders_.abandon(index);
+            return disturbances_.push_back(result.disturbance);
+        }
         OrderEnd end{number, {}, ""};
         if (endedOverReference(name, result))
             end.reference = referenceFailure(result.timedOut, result.status, referenceLimitsOf(c)).text();
@@ -316,12 +389,6 @@ class RunInProgress {
         count(row);
         report(&row);
         closed(plan_[index], row);
-    }
-
-    /// Removes a file that a killed child may have left half-written.
-    void removePart(const std::string& id) {
-        std::error_code ignored;
-        fs::remove(directory_ / (trajectoryName(id) + ".part"), ignored);
     }
 
     /// Begins the audit of a scenario after its last case, before the next scenario's cases.
@@ -380,6 +447,8 @@ class RunInProgress {
     /// Checks of cases whose child died in a reference that had passed its check, by place in the plan.
     std::map<std::size_t, ReferenceCheck> brokenReferences_;
     OpenOrders openOrders_;
+    std::vector<std::string>
+        disturbances_;                 ///< reasons why results are missing that no engine has to do with
     std::map<std::string, int> open_;  ///< cases of a scenario still to come
     std::map<std::string, std::map<std::string, CaseRow>> unaudited_;
 };

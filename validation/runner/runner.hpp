@@ -18,6 +18,7 @@
 #include "scenarios/model/scenario.hpp"
 #include "validation/results/types.hpp"
 #include "validation/runner/reference_guard.hpp"
+#include "validation/runner/shard.hpp"
 #include "validation/symmetry/symmetry.hpp"
 #include "validation/trajectory.hpp"
 
@@ -41,8 +42,9 @@ struct RunOptions {
     std::size_t memoryLimitMiB = 4096;  ///< memory limit per child
     std::filesystem::path records;      ///< folder of what engine versions gave; "": nothing is on record
     std::string suite, command;
-    std::vector<int> pieces;  ///< lengths in steps of short piecesthat are measured as well (pieces.hpp)
-    int orders = 1;           ///< orders of insertion, the one as written included (orders.hpp)
+    std::vector<int> pieces;     ///< lengths in steps of short piecesthat are measured as well (pieces.hpp)
+    int orders = 1;              ///< orders of insertion, the one as written included (orders.hpp)
+    std::optional<Shard> shard;  ///< the plan is this part of a larger one
     ReferenceLimits referenceLimits;
     /// References that have been checked already, by scenario; the others are when the run begins.
     std::map<std::string, ReferenceCheck> references;

@@ -12,12 +12,14 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <stdexcept>
+#include <string_view>
+
+#include "validation/results/files.hpp"
+#include "validation/runner/child.hpp"
+#include "validation/runner/descendants.hpp"
 
 namespace rigor::validation {
 namespace {
-
-constexpr int kExecFailed = 127;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kSanitized = true;
@@ -27,12 +29,40 @@ constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(th
 constexpr bool kSanitized = false;
 #endif
 
+/// The environment of a child, with room for its process id, which is known only after the fork.
+class ChildEnvironment {
+  public:
+    ChildEnvironment() : mark_(std::string(kAncestorVariable) + "=" + ancestorMark(getpid(), 0)) {
+        digits_ = mark_.size() - 1;
+        mark_.append(kMostDigits, '\0');
+        const std::string name = std::string(kAncestorVariable) + "=";
+        for (char** entry = environ; *entry != nullptr; ++entry)
+            if (!std::string_view(*entry).starts_with(name)) entries_.push_back(*entry);
+        entries_.push_back(mark_.data());
+        entries_.push_back(nullptr);
+    }
+    /// Safe between fork and exec.
+    char* const* of(pid_t self) {
+        char reversed[kMostDigits];
+        int count = 0;
+        for (; self > 0; self /= 10) reversed[count++] = static_cast<char>('0' + self % 10);
+        for (int i = 0; i < count; ++i) mark_[digits_ + i] = reversed[count - 1 - i];
+        return entries_.data();
+    }
+
+  private:
+    static constexpr int kMostDigits = 20;
+    std::string mark_;
+    std::size_t digits_ = 0;
+    std::vector<char*> entries_;
+};
+
 /// Runs between fork and exec, with calls only that are safe there.
-[[noreturn]] void becomeProgram(char* const* argv, int output, pid_t parent, std::size_t memoryMiB,
-                                int keepOpen) {
+[[noreturn]] void becomeProgram(char* const* argv, ChildEnvironment& environment, int output, pid_t parent,
+                                std::size_t memoryMiB, int keepOpen) {
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(kExecFailed);  // it died before prctl took effect
+    if (getppid() != parent) _exit(kExitEnvironment);  // it died before prctl took effect
     struct rlimit none {};
     setrlimit(RLIMIT_CORE, &none);
     if (memoryMiB > 0) {
@@ -47,10 +77,13 @@ constexpr bool kSanitized = false;
     dup2(output, STDOUT_FILENO);
     dup2(output, STDERR_FILENO);
     if (keepOpen >= 0) fcntl(keepOpen, F_SETFD, 0);
-    execv(argv[0], argv);
-    constexpr char message[] = "cannot run the program itself\n";
-    (void)!write(STDERR_FILENO, message, sizeof message - 1);
-    _exit(kExecFailed);
+    execve(argv[0], argv, environment.of(getpid()));
+    const int code = errno;
+    const char* const message[] = {kEnvironmentMark, argv[0], ": cannot be run: ", strerrordesc_np(code),
+                                   "\n"};
+    for (const char* text : message)
+        if (text != nullptr) (void)!write(STDERR_FILENO, text, std::strlen(text));
+    _exit(kExitEnvironment);
 }
 
 }  // namespace
@@ -65,10 +98,11 @@ pid_t startProgram(const std::vector<std::string>& arguments, int output, std::s
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     const pid_t self = getpid();
+    ChildEnvironment environment;
     const std::size_t memory = kSanitized ? 0 : memoryMiB;
     const pid_t pid = fork();
-    if (pid == 0) becomeProgram(argv.data(), output, self, memory, keepOpen);
-    if (pid < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
+    if (pid == 0) becomeProgram(argv.data(), environment, output, self, memory, keepOpen);
+    if (pid < 0) throw results::EnvironmentError("fork: " + results::errorText(errno));
     setpgid(pid, pid);  // called in parent and child, whichever comes first
     return pid;
 }

@@ -19,7 +19,7 @@ bool isSanitized();  ///< this build: slower, and it reserves terabytes of addre
 
 /// Runs `arguments` (the first is the program's file) with stdout and stderr going to `output`. `memoryMiB`:
 /// limit of its address space, 0: none; not set in sanitizer builds. `keepOpen`: a file it gets under the
-/// same number, or -1. The child dies with the thread that calls this. Throws std::runtime_error.
+/// same number, or -1. The child dies with the thread that calls this. Throws results::EnvironmentError.
 pid_t startProgram(const std::vector<std::string>& arguments, int output, std::size_t memoryMiB,
                    int keepOpen = -1);
 

@@ -18,48 +18,20 @@
 #include "validation/runner/answer.hpp"
 #include "validation/runner/process_pool.hpp"
 #include "validation/runner/tests/fixtures.hpp"
+#include "validation/runner/tests/same_runs.hpp"
 
 namespace rigor::validation {
 namespace {
 
+using fixtures::expectSameMotion;
 using fixtures::plan;
 using fixtures::thrownBall;
+using fixtures::timeless;
 using results::Outcome;
 using results::Verdict;
 using testing::HasSubstr;
 
 using RunCases = fixtures::RunnerTest;
-
-/// Everything of a run that must not depend on when and beside what it ran.
-std::string timeless(const results::Run& run) {
-    std::string text;
-    for (results::CaseRow row : run.cases) {
-        row.wallSeconds = row.cpuSeconds = 0.0;
-        row.peakMemoryKiB = 0;
-        row.timings.clear();
-        row.command.clear();  // names the folder
-        text += caseToJson(row).dump() + "\n";
-    }
-    return text;
-}
-
-/// Bit for bit, NaN included.
-bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
-}
-
-void expectSameMotion(const results::TrajectoryFile& a, const results::TrajectoryFile& b) {
-    EXPECT_TRUE(sameBits(a.times, b.times)) << a.spec;
-    ASSERT_EQ(a.bodies.size(), b.bodies.size());
-    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
-        EXPECT_TRUE(sameBits(a.bodies[i].position.values, b.bodies[i].position.values)) << a.spec;
-        EXPECT_TRUE(sameBits(a.bodies[i].velocity.values, b.bodies[i].velocity.values)) << a.spec;
-    }
-    ASSERT_EQ(a.series.size(), b.series.size());
-    for (std::size_t i = 0; i < a.series.size(); ++i)
-        EXPECT_TRUE(sameBits(a.series[i].channel.values, b.series[i].channel.values)) << a.series[i].name;
-}
 
 const results::CaseRow& rowOf(const results::Run& run, const std::string& engine) {
     for (const auto& row : run.cases)
