@@ -13,6 +13,7 @@
 #include "cli/guarded.hpp"
 #include "reports/model/view_model.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "validation/results/files.hpp"
 #include "validation/results/values.hpp"
 #include "validation/runner/event_log.hpp"
 #include "validation/runner/judge.hpp"
@@ -183,6 +184,8 @@ int runHere(const RunArguments& a) {
     validation::ReferenceCheck reference;
     const auto loaded = loadWithReference(a.scenario, a.overrides, a.referenceLimits, false, &reference);
     const auto& s = loaded.scenario;
+    limitProcessorTime(1.5 * s.timeLimit +
+                       a.referenceLimits.seconds);  // engine, metrics and reference together
     const double dt = a.timeStep.empty() ? s.timeSteps.front() : parseTimeStep(a.timeStep);
     std::ofstream csvFile;
     std::ostream* csv = nullptr;
@@ -217,8 +220,7 @@ int runHere(const RunArguments& a) {
     const auto live = runEngine(
         s, validation::withScenarioSettings(adapter::parseSpec(a.engine), loaded.text), dt, options);
     validation::setAlarm(0.0);
-    if (csv != nullptr && !csv->flush())
-        throw std::runtime_error("--csv: could not write everything to '" + a.csv + "'");
+    if (csv != nullptr && !csv->flush()) throw results::EnvironmentError(a.csv, "cannot be written", errno);
     if (a.csv != "-") printCase(live.row, a.json);
     if (live.row.verdict == results::Verdict::Fail && setsMoreThanBounds(a.overrides))
         std::fprintf(stderr, "note: %s\n", kBoundsNote);

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 struct ValidateArguments {
     std::vector<std::string> what, overrides, timeSteps;
-    std::string engines, out, baseline;
+    std::string engines, out, baseline, shard;
     int jobs = 0, orders = 0;
     std::vector<int> pieces;
     validation::ReferenceLimits referenceLimits;
@@ -48,19 +48,24 @@ struct Selection {
     std::map<std::string, validation::ReferenceCheck> references;
     std::string title;
     int orders = 1;
+    std::optional<validation::Shard> shard;
 };
 
 void addScenario(Selection& selection, const std::string& name, const ValidateArguments& arguments,
                  int maxTimeSteps) {
+    // The other shards compute the references of their own scenarios.
+    const bool isOwn = !selection.shard || selection.shard->hasScenario(selection.scenarios.size());
     validation::ReferenceCheck reference;
-    auto loaded = loadWithReference(name, arguments.overrides, arguments.referenceLimits, false, &reference);
-    selection.references[loaded.scenario.name] = reference;
+    auto loaded =
+        isOwn ? loadWithReference(name, arguments.overrides, arguments.referenceLimits, false, &reference)
+              : scenario::loadScenario(scenario::findScenario(name), arguments.overrides);
     for (const auto& present : selection.scenarios) {
         if (present.first.name != loaded.scenario.name) continue;
         if (present.second == loaded.text) return;
         throw std::invalid_argument("'" + name + "': another scenario of this run has the name '" +
                                     loaded.scenario.name + "'; rename one or use two runs");
     }
+    if (isOwn) selection.references[loaded.scenario.name] = reference;
     if (maxTimeSteps > 0 && loaded.scenario.timeSteps.size() > static_cast<std::size_t>(maxTimeSteps))
         loaded.scenario.timeSteps.resize(maxTimeSteps);
     selection.scenarios.emplace_back(std::move(loaded.scenario), std::move(loaded.text));
@@ -82,6 +87,7 @@ void checkName(const std::string& name) {
 
 Selection select(const ValidateArguments& arguments) {
     Selection selection;
+    if (!arguments.shard.empty()) selection.shard = validation::parseShard(arguments.shard);
     for (const auto& name : arguments.what) {
         selection.title += (selection.title.empty() ? "" : " ") + fs::path(name).stem().string();
         if (!isSuite(name)) {
@@ -197,13 +203,14 @@ int validate(const ValidateArguments& given) {
     if (arguments.what.empty())
         arguments.what = arguments.resume ? resumedWhat(arguments) : std::vector{kDefaultSuite};
     checkBaseline(arguments.baseline);
-    const Selection selection = select(arguments);
+    Selection selection = select(arguments);
     const auto specs = validation::withAllPresets(chooseEngines(arguments, selection), ownBinary());
     std::vector<double> timeSteps = selection.timeSteps;
     if (!arguments.timeSteps.empty()) timeSteps.clear();
     for (const auto& text : arguments.timeSteps) timeSteps.push_back(parseTimeStep(text));
-    const auto plan = validation::planCases(selection.scenarios, specs, timeSteps);
+    auto plan = validation::planCases(selection.scenarios, specs, timeSteps);
     validation::checkPlan(plan, ownBinary());
+    if (selection.shard) plan = validation::casesOfShard(plan, *selection.shard);
 
     validation::RunOptions options;
     options.directory = chooseRunFolder(arguments.out, arguments.resume, selection.title);
@@ -218,23 +225,25 @@ int validate(const ValidateArguments& given) {
     options.orders = arguments.orders > 0 ? arguments.orders : selection.orders;
     options.referenceLimits = arguments.referenceLimits;
     options.references = selection.references;
+    options.shard = selection.shard;
     options.command = ownCommandLine();
 
     if (options.resume) checkResumed(options.directory, plan);
     const std::atomic<bool>& interrupted = catchInterrupts();
     ProgressLine line(arguments.quiet);
-    const auto run = validation::runCases(
-        plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
-    line.finish();
+    std::string again = options.command;
+    if (!arguments.resume) again += " --resume";
+    if (arguments.out.empty()) again += " --out " + options.directory.string();
+    const auto run = orStopped(line, again, [&] {
+        return validation::runCases(
+            plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
+    });
     if (interrupted) {
-        std::string again = options.command;
-        if (!arguments.resume) again += " --resume";
-        if (arguments.out.empty()) again += " --out " + options.directory.string();
         std::fprintf(stderr, "Interrupted: %zu of %lld cases are stored. Go on with: %s\n", run.cases.size(),
                      static_cast<long long>(run.plannedCases), again.c_str());
         return kInterrupted;
     }
-    report::writeReports(options.directory);
+    if (!options.shard) report::writeReports(options.directory);  // `rigor merge` writes one for all shards
     printResult(run, options.directory, arguments.json);
     const bool green = validation::runIsGreen(run);
     const bool misses = std::any_of(run.cases.begin(), run.cases.end(),
@@ -278,6 +287,9 @@ void addValidate(CLI::App& app, Action& action) {
                      "Run every case in so many orders of insertion (bodies, shapes, joints, forces): as "
                      "written, reversed, shuffled; ranges stand beside the values (default: the suite's, 1)")
         ->check(CLI::Range(1, 1000));
+    command->add_option("--shard", a->shard,
+                        "Run the K-th of N parts of the plan (K/N), without a report: for many machines; "
+                        "`rigor merge` makes one run of them");
     addReferenceLimit(*command, a->referenceLimits);
     command->add_flag("--no-audit", a->noAudit, "Leave out the contact audit");
     command->add_flag("--json", a->json, "Print the results as JSON");
