@@ -244,7 +244,11 @@ int validate(const ValidateArguments& given) {
         return kInterrupted;
     }
     if (!options.shard) report::writeReports(options.directory);  // `rigor merge` writes one for all shards
-    printResult(run, options.directory, arguments.json);
+    if (options.shard && !arguments.json)
+        std::printf("Shard %s: %zu cases are stored in %s\n", arguments.shard.c_str(), run.cases.size(),
+                    options.directory.c_str());
+    else
+        printResult(run, options.directory, arguments.json);
     const bool green = validation::runIsGreen(run);
     const bool misses = std::any_of(run.cases.begin(), run.cases.end(),
                                     [](const auto& c) { return c.verdict == results::Verdict::Fail; });
