@@ -188,7 +188,7 @@ Hdf5File::~Hdf5File() {
 std::string Hdf5File::finish() {
     const std::string what = "collect the bytes of the file";
     check(H5Fflush(id_, H5F_SCOPE_GLOBAL), what);
-    // H5Fget_file_image would give the content as well, but spoils the checksum of the superblock (1.10.8).
+    // H5Fget_file_image would give the content as well, but damages the checksum of the superblock (1.10.8).
     const ssize_t size = H5Fget_file_image(id_, nullptr, 0);
     if (size < 0) failed(what);
     image_->size = static_cast<std::size_t>(size);

@@ -48,7 +48,7 @@ std::string caches() {
     return text.empty() ? "unknown" : text;
 }
 
-/// Tells machines apart without giving their names.
+/// A hash by which machines differ, without their names.
 std::string machine(const char* name) {
     Fnv1a hash;
     hash.text(name);

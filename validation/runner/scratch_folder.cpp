@@ -34,7 +34,7 @@ int openLock(const fs::path& file, int flags) {
     return lock;
 }
 
-/// Removes the folders whose owner has ended without removing them: nobody holds their locks.
+/// Removes the folders whose owner has ended without removing them: their locks are free.
 void removeAbandoned() {
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(), ignored)) {
