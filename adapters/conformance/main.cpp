@@ -84,7 +84,8 @@ int main(int argc, char** argv) {
     const auto absent = adapter::absentGuests();
     for (const auto& guest : absent)
         if (guest.name == adapter::parseSpec(spec).engine) {
-            std::fprintf(stderr, "%s is not installed: %s is missing\n", spec.c_str(), guest.missing().c_str());
+            std::fprintf(stderr, "%s is not installed: %s is missing\n", spec.c_str(),
+                         guest.missing().c_str());
             return kSkipped;
         }
     try {
