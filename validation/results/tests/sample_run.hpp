@@ -83,8 +83,22 @@ inline CaseRow caseRow(const std::string& id, std::int64_t position) {
     c.ledger = {{"friction_law", "cone", "pyramid", "approximate", "the library has no other"}};
     c.readBack = {{"mass", "block", 2.0, std::nextafter(2.0, 3.0), 4.4e-16, true},
                   {"inertia", "block", 1.0, 2.0, 1.0, false}};
-    c.audit = {
-        {"bullet", "completed", 20, 40, 10, 1, 2, 3, 1e-3, {}, kDenormal, -0.0, {}, "block|floor", "note", "[]"}};
+    c.audit = {{"bullet",
+                "completed",
+                20,
+                40,
+                10,
+                1,
+                2,
+                3,
+                1e-3,
+                {},
+                kDenormal,
+                -0.0,
+                {},
+                "block|floor",
+                "note",
+                "[]"}};
     c.timings = {{"step", 1e-6, 5e-7, 2e-6, 0.5, 360, 4.0, 0.1 + 0.2, kDenormal, 7, 4e-4, 1.1e-6, kDenormal,
                   2e-6, kInf, 1e4},
                  {"build", 1e-6, 5e-7, 2e-6, 0.5, 1, 4.0}};
