@@ -43,6 +43,9 @@ TEST(CommandLine, ListsEnginesWithVersionAndPrecision) {
     const auto engines = rigorJson("list engines --json");
     std::set<std::string> names;
     for (const auto& engine : engines) {
+        // A guest whose library is not there has a line of its own.
+        if (!engine.at("problem").get<std::string>().empty()) continue;
+        if (!engine.at("clock").get<std::string>().empty()) continue;
         names.insert(engine.at("name").get<std::string>());
         EXPECT_FALSE(engine.at("version").get<std::string>().empty()) << engine.at("name");
         EXPECT_TRUE(engine.at("precision") == "f32" || engine.at("precision") == "f64") << engine.at("name");

@@ -55,7 +55,8 @@ inline results::BenchCase benchCase(const std::string& engine, double size, std:
 inline results::Run makeBench() {
     results::Run run;
     run.suite = "bench";
-    run.command = std::string("./rigor bench pyramid --engines ode,rigor,") + kLengthySpec;
+    run.command = "./rigor bench pyramid --engines ode,rigor,";
+    run.command += kLengthySpec;
     run.started = "2026-01-01T00:00:00Z";
     run.finished = "2026-01-01T01:00:00Z";
     run.environment = {

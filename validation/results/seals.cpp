@@ -18,13 +18,18 @@ constexpr const char* kTablesOfCases[] = {"settings",  "metrics", "quantities", 
 constexpr const char* kTablesOfHeader[] = {"run", "environment", "engines", "scenarios"};
 constexpr const char* kTablesOfAnalysis[] = {"orders", "fairness"};
 
-/// Checksum of rows: types and values of all columns, bit for bit.
+/// Checksum of rows: names, types and values of all columns, bit for bit. Readers take a column that is not there for one
+/// of a newer schema, so that a damaged name counts.
 class Checksum {
   public:
     void add(const void* bytes, std::size_t count) {
         sum_ = crc32_z(sum_, static_cast<const Bytef*>(bytes), count);
     }
     void addRows(SQLite::Statement& select) {
+        for (int i = 0; i < select.getColumnCount(); ++i) {
+            const char* name = select.getColumnName(i);
+            add(name, std::strlen(name) + 1);
+        }
         while (select.executeStep())
             for (int i = 0; i < select.getColumnCount(); ++i) addValue(select.getColumn(i));
     }

@@ -8,7 +8,6 @@
 
 #include <csignal>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -28,9 +27,11 @@ std::vector<pid_t> ownChildren() {
 
 bool descendsFrom(pid_t process, const std::string& mark) {
     std::ifstream in("/proc/" + std::to_string(process) + "/environ", std::ios::binary);
-    const std::string all((std::istreambuf_iterator<char>(in)), {});
     const std::string entry = std::string(kAncestorVariable) + "=" + mark;
-    return ('\0' + all).find('\0' + entry + '\0') != std::string::npos;
+    // A process may end while it is read: that ends getline, where an iterator would throw.
+    for (std::string variable; std::getline(in, variable, '\0');)
+        if (variable == entry) return true;
+    return false;
 }
 
 }  // namespace

@@ -61,8 +61,9 @@ class Killer {
     }
     bool isMeant(pid_t process) const {
         std::ifstream in("/proc/" + std::to_string(process) + "/cmdline", std::ios::binary);
-        const std::string line((std::istreambuf_iterator<char>(in)), {});
-        return line.find('\0' + kind_ + '\0') != std::string::npos;
+        for (std::string argument; std::getline(in, argument, '\0');)
+            if (argument == kind_) return true;
+        return false;
     }
     std::string kind_;
     int most_, signal_;
