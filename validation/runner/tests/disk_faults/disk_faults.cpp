@@ -93,13 +93,14 @@ class DiskFaults : public fixtures::RunnerTest {
                         std::int64_t& calls) {
         const fs::path counter = scratch_.path() / "counter";
         results::replaceScratchFile(counter, std::string(sizeof calls, '\0'));
-        const Ended end =
-            makeRun(name, false,
-                    {{"LD_PRELOAD", (fixtures::buildFolder() / "tests/faulty_disk.so").string()},
-                     {"RIGOR_FAULT_COUNTER", counter.string()},
-                     {"RIGOR_FAULT_AT", std::to_string(at)},
-                     {"RIGOR_FAULT_KIND", kind},
-                     {"RIGOR_FAULT_UNDER", folder(name).string() + ":" + temporary().string()}});
+        std::map<std::string, std::string> variables{
+            {"LD_PRELOAD", (fixtures::buildFolder() / "tests/faulty_disk.so").string()},
+            {"RIGOR_FAULT_COUNTER", counter.string()},
+            {"RIGOR_FAULT_AT", std::to_string(at)},
+            {"RIGOR_FAULT_KIND", kind},
+            {"RIGOR_FAULT_UNDER", folder(name).string() + ":" + temporary().string()}};
+        if (!process_.empty()) variables["RIGOR_FAULT_PROCESS"] = process_;
+        const Ended end = makeRun(name, false, variables);
         std::ifstream(counter, std::ios::binary).read(reinterpret_cast<char*>(&calls), sizeof calls);
         return end;
     }
@@ -177,14 +178,16 @@ class DiskFaults : public fixtures::RunnerTest {
         return "No space left on device";
     }
 
-    void checkKind(const std::string& kind) {
+    void checkKind(const std::string& kind, std::int64_t most = kFaultsOfKind) {
         std::int64_t calls = 0;
         ASSERT_EQ(makeFaultyRun("counted", kind, 0, calls).code, 0);
-        ASSERT_GT(calls, 100);
-        const std::int64_t faults = std::min<std::int64_t>(calls, kFaultsOfKind);
+        fs::remove_all(folder("counted"));
+        ASSERT_GT(calls, process_.empty() ? 100 : 3);
+        const std::int64_t faults = std::min<std::int64_t>(calls, most);
         for (std::int64_t i = 0; i < faults; ++i) checkFault(kind, 1 + i * calls / faults);
-        std::printf("%s: %lld calls, %lld faults, %d runs stopped, %d begun anew\n", kind.c_str(),
-                    static_cast<long long>(calls), static_cast<long long>(faults), stopped_, begunAnew_);
+        std::printf("%s%s%s: %lld calls, %lld faults, %d runs stopped, %d begun anew\n", process_.c_str(),
+                    process_.empty() ? "" : " ", kind.c_str(), static_cast<long long>(calls),
+                    static_cast<long long>(faults), stopped_, begunAnew_);
         const bool mustStop = kind == "ENOSPC" || kind == "EIO" || kind == "full";
         EXPECT_GT(stopped_, mustStop ? faults / 2 : -1);
         EXPECT_LE(begunAnew_, calls / 10);
@@ -192,10 +195,19 @@ class DiskFaults : public fixtures::RunnerTest {
 
     results::Run whole_;
     int stopped_ = 0, begunAnew_ = 0;
+    std::string process_;  ///< first argument of the processes whose calls fail; "": of all
 };
 
 TEST_F(DiskFaults, NoSpaceAtOneCall) {
     checkKind("ENOSPC");
+}
+/// Most calls are those of the store. The children of each kind have few, and each of these fails once.
+TEST_F(DiskFaults, NoSpaceAtOneCallOfAChild) {
+    for (const char* process : {"__case", "__audit", "__describe", "__reference"}) {
+        process_ = process;
+        stopped_ = 0;
+        checkKind("ENOSPC", 12);
+    }
 }
 TEST_F(DiskFaults, NoSpaceFromOneCallOn) {
     checkKind("full");

@@ -4,7 +4,8 @@
 // A library for LD_PRELOAD that makes one call fail which writes to the disk. Calls are counted over all processes that
 // share RIGOR_FAULT_COUNTER, a file that begins with the number of calls. The call number RIGOR_FAULT_AT fails as
 // RIGOR_FAULT_KIND requests: ENOSPC, EIO, EINTR; `full`, ENOSPC for this call and all later ones; `short`, half of the
-// bytes are written (then only writes are counted). 0 counts alone. Only files under RIGOR_FAULT_UNDER (folders with
+// bytes are written (then only writes are counted). 0 counts alone. With RIGOR_FAULT_PROCESS only processes with this
+// word as their first argument ("__case") are concerned. Only files under RIGOR_FAULT_UNDER (folders with
 // colons between) are concerned.
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -26,6 +27,17 @@
 
 namespace {
 
+/// First argument of this program.
+std::string firstArgument() {
+    char line[4096];
+    const long file = syscall(SYS_openat, AT_FDCWD, "/proc/self/cmdline", O_RDONLY | O_CLOEXEC);
+    const long count = syscall(SYS_read, file, line, sizeof line - 1);
+    syscall(SYS_close, file);
+    const std::string all(line, static_cast<std::size_t>(count > 0 ? count : 0));
+    const std::size_t from = std::min(all.find('\0'), all.size() - (all.empty() ? 0 : 1)) + 1;
+    return from < all.size() ? all.substr(from, all.find('\0', from) - from) : "";
+}
+
 struct Faults {
     std::atomic<std::int64_t>* calls = nullptr;  ///< shared by all processes
     std::int64_t at = 0;
@@ -37,6 +49,8 @@ struct Faults {
         const char *counter = std::getenv("RIGOR_FAULT_COUNTER"), *number = std::getenv("RIGOR_FAULT_AT"),
                    *kind = std::getenv("RIGOR_FAULT_KIND"), *under = std::getenv("RIGOR_FAULT_UNDER");
         if (counter == nullptr || number == nullptr || kind == nullptr || under == nullptr) return;
+        const char* process = std::getenv("RIGOR_FAULT_PROCESS");
+        if (process != nullptr && firstArgument() != process) return;
         const long file = syscall(SYS_openat, AT_FDCWD, counter, O_RDWR | O_CLOEXEC);
         if (file < 0) return;
         void* memory =
