@@ -43,10 +43,12 @@ export function dimensionsOf(engine: string): number[] {
   const given = run.engines.find((e) => e.name === engine)?.described?.capabilities.dimensions;
   return Array.isArray(given) ? given.filter((d): d is number => typeof d === 'number') : [];
 }
-/** "2D only"; "" for an engine that does both. */
+/** "2D only", "3D only"; "3D and plane" for one that keeps bodies in a plane of its own space; "" for one that does both. */
 export function dimensionNote(engine: string): string {
   const [only, more] = dimensionsOf(engine);
-  return only === undefined || more !== undefined ? '' : `${only}D only`;
+  if (only === undefined || more !== undefined) return '';
+  const planar = run.engines.find((e) => e.name === engine)?.described?.capabilities.planar === true;
+  return planar ? `${only}D and plane` : `${only}D only`;
 }
 
 type Query = Record<string, string | number | null | undefined>;

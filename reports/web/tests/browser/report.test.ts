@@ -50,6 +50,7 @@ describe('the report of a real run', { skip }, () => {
       headings.join('; '),
     );
     assert.match(await it.text('#scoreboard thead th.group:has(a[href="#/engine/box2d"])'), /2D only/);
+    assert.match(await it.text('#scoreboard thead th.group:has(a[href="#/engine/bullet"])'), /3D and plane/);
     assert.doesNotMatch(await it.text('#scoreboard thead th.group:has(a[href="#/engine/rigor"])'), /only/);
     await it.page.locator('#scoreboard').getByLabel('Groups').selectOption('none');
     assert.equal(await it.page.locator('#scoreboard tr.task-group').count(), 0);
