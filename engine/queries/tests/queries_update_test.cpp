@@ -115,6 +115,31 @@ TYPED_TEST(QueriesUpdate, AnswersAreThoseOfNewQueries) {
     for (const ShapeRef& ref : found) EXPECT_NE(ref.body.index, 2u) << "no sensors";
 }
 
+/// Removing a body gives the shapes after it other indices; those that stand still are found where they are.
+TYPED_TEST(QueriesUpdate, WhatStandsStillIsFoundAfterOthersAreRemoved) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    World<S> world{WorldDef<S>{}};
+    std::vector<BodyId> bodies;
+    for (int i = 0; i < 12; ++i) {
+        BodyDef<S> def;
+        def.type = BodyType::Static;
+        def.pose.p = at<S>(3 * i, 0);
+        bodies.push_back(world.addBody(def));
+        attach<S>(world, bodies.back(), Box<S>{S::Vec::Constant(R(0.5))}, 0);
+    }
+    WorldQueries<S> queries(world);
+    world.removeBody(bodies[2]);
+    queries.update();
+    for (int i = 0; i < 12; ++i) {
+        const auto hit = queries.castRay(at<S>(3 * i, 5), at<S>(0, -10));
+        ASSERT_EQ(hit.has_value(), i != 2) << i;
+        if (hit) {
+            EXPECT_EQ(hit->body, bodies[static_cast<std::size_t>(i)]) << i;
+        }
+    }
+}
+
 /// A thousand bodies that fly apart: the tree is built again when its boxes have grown, not before.
 TYPED_TEST(QueriesUpdate, TheTreeIsBuiltAgainWhenBodiesHaveMovedApart) {
     using S = TypeParam;
