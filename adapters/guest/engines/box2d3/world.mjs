@@ -4,6 +4,7 @@
 // A scenario in Box2D 3. The coefficients of a pair come from the library's callbacks, by the materials' numbers.
 import { performance } from 'node:perf_hooks';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { addJoints } from '../shared/joints.mjs';
 import { reachOf } from '../shared/reach.mjs';
 import { addJoint } from './joints.mjs';
 import { ledgerOf } from './ledger.mjs';
@@ -31,12 +32,8 @@ export class Box2dWorld extends rg.World {
         this.createWorld();
         this.reach = reachOf(scenario);
         this.bodies = scenario.bodies.map((body, i) => this.addBody(body, i));
-        const still = { position: [0, 0, 0], orientation: [1, 0, 0, 0] };
-        for (const joint of scenario.joints) {
-            const [bodyA, poseA] =
-                joint.body_a < 0 ? [this.stillBody(), still] : [this.bodies[joint.body_a], scenario.bodies[joint.body_a]];
-            addJoint(this.world, joint, bodyA, this.bodies[joint.body_b], poseA, scenario.bodies[joint.body_b]);
-        }
+        const outside = () => this.stillBody();
+        addJoints(scenario, this.bodies, outside, (...joint) => addJoint(this.world, ...joint));
     }
 
     createWorld() {

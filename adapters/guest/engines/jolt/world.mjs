@@ -4,6 +4,7 @@
 // A scenario in Jolt.
 import { performance } from 'node:perf_hooks';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { addJoints } from '../shared/joints.mjs';
 import { Contacts } from './contacts.mjs';
 import { addJoint } from './joints.mjs';
 import { ledgerOf } from './ledger.mjs';
@@ -55,12 +56,8 @@ export class JoltWorld extends rg.World {
         this.contactsOf = new Contacts(scenario, dt / this.collisionSteps);
         this.system.SetContactListener(this.contactsOf.listener);
         this.bodies = scenario.bodies.map((body, i) => this.addBody(body, i));
-        const still = { position: [0, 0, 0], orientation: [1, 0, 0, 0] };
-        for (const joint of scenario.joints) {
-            const bodyA = joint.body_a < 0 ? J.JoltInterface.prototype.sGetFixedToWorldBody() : this.bodies[joint.body_a];
-            const poseA = joint.body_a < 0 ? still : scenario.bodies[joint.body_a];
-            addJoint(this.system, joint, bodyA, this.bodies[joint.body_b], poseA, scenario.bodies[joint.body_b]);
-        }
+        const outside = () => J.JoltInterface.prototype.sGetFixedToWorldBody();
+        addJoints(scenario, this.bodies, outside, (...joint) => addJoint(this.system, ...joint));
         this.system.OptimizeBroadPhase();
     }
 

@@ -5,6 +5,7 @@
 import { performance } from 'node:perf_hooks';
 import { Settings, World } from 'planck';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { addJoints } from '../shared/joints.mjs';
 import { reachOf } from '../shared/reach.mjs';
 import { Contacts } from './contacts.mjs';
 import { jointOf } from './joints.mjs';
@@ -35,14 +36,8 @@ export class PlanckWorld extends rg.World {
         this.contactsOf.listenTo(this.world);
         this.reach = reachOf(scenario);
         this.bodies = scenario.bodies.map((body, i) => this.addBody(body, i));
-        const still = { orientation: [1, 0, 0, 0] };
-        for (const joint of scenario.joints) {
-            const outside = joint.body_a < 0;
-            const bodyA = outside ? this.world.createBody() : this.bodies[joint.body_a];
-            const poseA = outside ? still : scenario.bodies[joint.body_a];
-            const made = jointOf(joint, bodyA, this.bodies[joint.body_b], poseA, scenario.bodies[joint.body_b]);
-            this.world.createJoint(made);
-        }
+        const outside = () => this.world.createBody();
+        addJoints(scenario, this.bodies, outside, (...joint) => this.world.createJoint(jointOf(...joint)));
     }
 
     /** The library's settings are of the whole process: set again for every step. */

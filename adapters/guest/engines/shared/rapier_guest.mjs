@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Rapier as a guest: what its packages for 2D and 3D share.
+import * as rg from '../../sdk/rigor_guest.mjs';
+import { collide } from './rapier_collide.mjs';
+import { options } from './rapier_options.mjs';
+import { RapierWorld } from './rapier_world.mjs';
+
+const oneCoefficient = 'geometry/collider.d.ts, setFriction: the one coefficient of friction';
+const limited = ['hinge', 'slider'].flatMap((type) => [type, ...['limit', 'motor', 'spring'].map((f) => `${type}.${f}`)]);
+
+/** Serves the package of `space`. `own` has its shapes, the joints and the lacks that the other package does not have. */
+export function serveRapier(space, dimension, own) {
+    rg.serve({
+        name: `rapier${dimension}d`,
+        title: `Rapier ${dimension}D`,
+        version: space.RAPIER.version(),
+        precision: 'f32',
+        build_notes: `@dimforge/rapier${dimension}d-compat, WebAssembly, Node.js ${process.versions.node}`,
+        capabilities: {
+            dynamics: true,
+            collision: true,
+            signed_distance: true,
+            dimensions: [dimension],
+            shapes: own.shapes,
+            joints: [...own.joints, 'fixed', ...limited],
+            kinematic_bodies: true,
+            damping: true,
+            gravity_scale: true,
+            center_of_mass_offset: true,
+            contact_filters: true,
+            shape_filters: true,
+            library_lacks: {
+                ...own.lacks,
+                distance: 'dynamics/impulse_joint.d.ts, enum JointType: Rope bounds a distance from above, Spring is soft',
+                static_friction: oneCoefficient,
+                rolling_friction: oneCoefficient,
+            },
+        },
+        options,
+        build: (scenario, dt, settings) => new RapierWorld(space, scenario, dt, settings),
+        collide: (a, b) => collide(space, a, b),
+    });
+}
