@@ -132,8 +132,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
     MovingShape<S> moving(const MovedWorld<S>& world, std::uint32_t shape, Real from) const {
         const ShapeRecord<S>& record = world.contacts.shapes()[shape];
         const Way& way = ways_[record.body];
-        return {&record.shape, record.local,          movedPose<S>(way.start, way.velocity, from - way.begin),
-                way.velocity,  record.boundingRadius, record.inscribedRadius};
+        return movingShape<S>(record, movedPose<S>(way.start, way.velocity, from - way.begin), way.velocity);
     }
 
     static bool isContinuous(const MovedWorld<S>& world, std::uint32_t shape) {

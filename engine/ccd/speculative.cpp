@@ -61,12 +61,10 @@ class Speculative final : public ContinuousCollision<S> {
             const std::uint32_t body = shapes[i].body;
             continuous_[i] = bodies.constants[body].continuous;
             MovingShape<S>& m = moving_[i];
-            m = {&shapes[i].shape, shapes[i].local, bodies.pose[body], bodies.velocity[body], 0, 0};
+            m = movingShape<S>(shapes[i], bodies.pose[body], bodies.velocity[body]);
             if (bodies.invMass[body] > 0)
                 m.velocity.v += h * (bodies.constants[body].gravityScale * gravity +
                                      bodies.invMass[body] * bodies.wrench[body].force);
-            m.boundingRadius = shapes[i].boundingRadius;
-            m.inscribedRadius = shapes[i].inscribedRadius;
         }
     }
 
@@ -114,8 +112,7 @@ class Speculative final : public ContinuousCollision<S> {
             const std::uint32_t i = record.body;
             const Velocity<S> v =
                 straightVelocity<S>(starts_[i], world.bodies.pose[i], world.motion.used()[i], world.h);
-            return MovingShape<S>{&record.shape,         record.local,          starts_[i], v,
-                                  record.boundingRadius, record.inscribedRadius};
+            return movingShape<S>(record, starts_[i], v);
         };
         for (const Contact<S>& contact : world.contacts.list()) {
             if (!contact.speculative || contact.vetoed) continue;

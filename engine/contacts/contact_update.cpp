@@ -235,10 +235,8 @@ void ContactUpdate<S>::dropFarPoints(Candidate<S>& candidate, Manifold<S>& manif
 /// off theirs. Impacts of fast shapes are left to continuous collision, which has them at their times.
 template <class S>
 bool ContactUpdate<S>::mayMeet(const Candidate<S>& candidate) const {
-    const auto moving = [&](const ShapeRecord<S>& shape) -> MovingShape<S> {
-        return {
-            &shape.shape,         shape.local,          bodies.pose[shape.body], bodies.velocity[shape.body],
-            shape.boundingRadius, shape.inscribedRadius};
+    const auto moving = [&](const ShapeRecord<S>& shape) {
+        return movingShape<S>(shape, bodies.pose[shape.body], bodies.velocity[shape.body]);
     };
     const ShapeRecord<S>&a = shapes[candidate.a], &b = shapes[candidate.b];
     const MovingShape<S> A = moving(a), B = moving(b);

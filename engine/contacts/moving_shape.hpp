@@ -5,6 +5,7 @@
 // decide how far it may move unseen.
 #pragma once
 
+#include "engine/contacts/shape_record.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/math/space.hpp"
 #include "engine/shapes/inner_sphere.hpp"
@@ -39,6 +40,12 @@ struct MovingShape {
         return t * (velocity.v.norm() + std::sqrt(dotAng(velocity.w, velocity.w)) * boundingRadius);
     }
 };
+
+/// A shape on its body, whose frame at the centre of mass is at `body` at time 0.
+template <class S>
+MovingShape<S> movingShape(const ShapeRecord<S>& shape, const Pose<S>& body, const Velocity<S>& velocity) {
+    return {&shape.shape, shape.local, body, velocity, shape.boundingRadius, shape.inscribedRadius};
+}
 
 /// The constant velocity that leads from `start` to `end` in h [s]. The rotation is the one by h * used,
 /// which may be more than half a turn, and what else has turned the body since.
