@@ -13,6 +13,7 @@ double* DenseLu::reset(std::size_t n) {
     if (swap_.size() < n) {
         swap_.resize(n);
         scale_.resize(n);
+        end_.resize(n);
     }
     return a_.data();
 }
@@ -21,17 +22,22 @@ bool DenseLu::factor() {
     constexpr double kSingular = 1e-14;  // some 50 roundings
     bool regular = true;
     const auto row = [this](std::size_t i) { return a_.data() + i * n_; };
-    for (std::size_t j = 0; j < n_; ++j) {
-        double largest = 0;
-        for (std::size_t i = 0; i < n_; ++i) largest = std::max(largest, std::abs(row(i)[j]));
-        scale_[j] = largest;
+    std::fill_n(scale_.begin(), n_, 0.0);
+    for (std::size_t i = 0; i < n_; ++i) {
+        const double* entries = row(i);
+        for (std::size_t j = 0; j < n_; ++j) scale_[j] = std::max(scale_[j], std::abs(entries[j]));
+        end_[i] = n_;
+        while (end_[i] > 0 && entries[end_[i] - 1] == 0) --end_[i];
     }
     for (std::size_t k = 0; k < n_; ++k) {
         std::size_t p = k;
         for (std::size_t i = k + 1; i < n_; ++i)
             if (std::abs(row(i)[k]) > std::abs(row(p)[k])) p = i;
         swap_[k] = p;
-        if (p != k) std::swap_ranges(row(k), row(k) + n_, row(p));
+        if (p != k) {
+            std::swap_ranges(row(k), row(k) + n_, row(p));
+            std::swap(end_[k], end_[p]);
+        }
         const double pivot = row(k)[k];
         if (!(std::abs(pivot) > kSingular * scale_[k])) {
             regular = false;
@@ -44,7 +50,8 @@ bool DenseLu::factor() {
             if (factor == 0) continue;
             double* to = row(i);
             const double* from = row(k);
-            for (std::size_t j = k + 1; j < n_; ++j) to[j] -= factor * from[j];
+            for (std::size_t j = k + 1; j < end_[k]; ++j) to[j] -= factor * from[j];
+            end_[i] = std::max(end_[i], end_[k]);
         }
     }
     return regular;
@@ -62,7 +69,7 @@ void DenseLu::solve(double* b) const {
     for (std::size_t i = n_; i-- > 0;) {
         const double* row = a_.data() + i * n_;
         double sum = b[i];
-        for (std::size_t j = i + 1; j < n_; ++j) sum -= row[j] * b[j];
+        for (std::size_t j = i + 1; j < end_[i]; ++j) sum -= row[j] * b[j];
         b[i] = row[i] != 0 ? sum / row[i] : 0.0;
     }
 }

@@ -11,7 +11,9 @@
 
 namespace rigor::engine {
 
-/// LU with partial pivoting of an n x n matrix, row by row in memory [GolubVanLoan2013, section 3.4].
+/// LU with partial pivoting of an n x n matrix, row by row in memory [GolubVanLoan2013, section 3.4]. Zeros to the
+/// right of the last entry of a row cost nothing: a matrix whose entries are near the diagonal takes n times the
+/// square of its band width.
 class DenseLu {
   public:
     /// Makes room for n x n and returns the first entry, to be filled before factor().
@@ -26,6 +28,7 @@ class DenseLu {
     std::size_t n_ = 0;
     std::vector<double> a_;
     std::vector<std::size_t> swap_;
+    std::vector<std::size_t> end_;  ///< one past the last column of each row that is not zero
     std::vector<double> scale_;
 };
 

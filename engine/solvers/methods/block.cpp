@@ -5,24 +5,30 @@
 // that acts between two bodies, and all joints that are connected. Kernels: sequential_impulses.hpp; source
 // [Catto2005], [Catto2009]. Differences:
 //   - the contacts between two bodies are a group that is swept until it is nearly solved before the next one
-//     is solved: a box then meets its neighbours without the rotation that solving its corners one by one
-//     would leave it with, which is what makes tall stacks rock;
-//   - iterations go forwards and backwards in turn, so that weight travels down a stack as fast as up;
+//     is solved (contact_group.hpp): a box then meets its neighbours without the rotation that solving its corners one
+//     by one would leave it with, which is what makes tall stacks rock;
+//   - iterations go forwards and backwards in turn, so that weight travels down a stack as fast as up, and two of
+//     them are a step of conjugate gradients (conjugate_sweeps.hpp) where there are contacts alone;
 //   - connected joints are a group too, whose equality blocks are solved at once (joint_group.hpp); the normal goes
 //     before the tangents, so that friction has this sweep's limit;
 //   - parts of the problem that share no body (independent_parts.hpp) are swept until each of them is solved;
 //     what becomes of a part does not depend on the others;
-//   - what the iterations allowed, at least kFinishIterations, leave of a part of at most kFinishRows rows
-//     is handed to Newton's method (newton_finish.hpp), with friction on the exact cone. Heavy boxes on light
-//     ones are then solved to rounding.
+//   - Newton's method (newton_finish.hpp), with friction on the exact cone, solves what the iterations allowed, at
+//     least kFinishIterations, leave of a part: of a small one in any case, of a larger one if its matrix is narrow
+//     (elimination_order.hpp) and its contacts are sorted. Small parts of contacts alone it solves sooner. Heavy boxes on
+//     light ones, and stacks, are then solved to rounding.
 //
 // Cost: the sum over all parts of iterations * rows * (1..kInnerSweeps). Known limits: contacts converge
-// linearly, slowly for large mass ratios, where a part has more rows than that.
+// linearly, slowly for large mass ratios, where a part is too large for Newton's method.
+#include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "engine/solvers/elimination_order.hpp"
 #include "engine/solvers/independent_parts.hpp"
 #include "engine/solvers/joints/joint_group.hpp"
+#include "engine/solvers/methods/conjugate_sweeps.hpp"
+#include "engine/solvers/methods/contact_group.hpp"
 #include "engine/solvers/methods/newton_finish.hpp"
 #include "engine/solvers/natural_map.hpp"
 #include "engine/solvers/sequential_impulses.hpp"
@@ -45,6 +51,7 @@ class BlockGaussSeidel final : public Solver<S> {
         joints_.begin(input.constraints);
         findGroups(input.constraints.blocks);
         parts_.find<S>(input.constraints.blocks, groups_, input.velocities.size());
+        contacts_.begin(input.constraints, groups_);
         orderGroups(input);
         iterate(input);
         finish(input);
@@ -59,14 +66,34 @@ class BlockGaussSeidel final : public Solver<S> {
         found_.resize(groups_.size());
         for (int i = 0; i < input.iterations; ++i) {
             renewBiases(input, i);
+            if (i == kPlainSweeps) conjugate_.begin(input, parts_.count());
+            if (i >= kPlainSweeps && i % 2 == 0)
+                forUnsolved(input, [&](std::size_t) { conjugate_.remember(input, blocks_); });
             const Real change = sweeps_.template largest<Real>(i % 2 != 0, [&](std::size_t group) {
                 const bool solved = solved_[parts_.partOf(group)] != 0;
-                return found_[group] =
-                           solved ? Real(0) : solveGroup(input, groups_[group], groups_[group + 1]);
+                return found_[group] = solved ? Real(0) : solveGroup(input, group);
             });
             if (input.monitor.after(input.velocities, change)) break;
             if (markSolved(input)) break;
+            if (i + 1 == kEarlyIterations) finishEarly(input);
+            if (i > kPlainSweeps && i % 2 != 0 && i + 1 < input.iterations)
+                forUnsolved(input, [&](std::size_t part) { conjugate_.advance(input, part, blocks_); });
         }
+    }
+
+    /// Calls use(part), with its blocks in blocks_, for the parts of contacts alone that are not solved.
+    template <class Use>
+    void forUnsolved(const SolverInput<S>& input, const Use& use) {
+        for (std::size_t part = 0; part < parts_.count(); ++part) {
+            if (solved_[part]) continue;
+            collectBlocks(input.constraints.blocks, part, std::numeric_limits<std::size_t>::max());
+            if (!hasJoints(input)) use(part);
+        }
+    }
+
+    bool hasJoints(const SolverInput<S>& input) const {
+        return std::any_of(blocks_.begin(), blocks_.end(),
+                           [&](std::uint32_t k) { return isJoint(input.constraints.blocks[k]); });
     }
 
     /// Renews the biases of joints in parts that are not solved yet.
@@ -88,8 +115,8 @@ class BlockGaussSeidel final : public Solver<S> {
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             Real change = 0;
             for (const std::uint32_t group : parts_.units(part)) change = std::max(change, found_[group]);
-            solved_[part] = change < tolerance || (tolerance > 0 && mayBeRounding(change) &&
-                                                   change < Real(0.25) * resolution(input, part));
+            solved_[part] = change < tolerance ||
+                            (tolerance > 0 && mayBeRounding(change) && change < resolution(input, part));
             all = all && solved_[part] != 0;
         }
         return all;
@@ -114,47 +141,86 @@ class BlockGaussSeidel final : public Solver<S> {
 
     /// Newton's method solves what sweeps leave of small parts.
     void finish(const SolverInput<S>& input) {
-        const Real tolerance = input.monitor.tolerance();
-        if (!(tolerance > 0) || input.iterations < kFinishIterations) return;
-        if (input.friction != &frictionCone<Real>) return;
+        if (!mayFinish(input)) return;
         bool renewed = false;
         Real worst = -1;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
-            if (!collectBlocks(input.constraints.blocks, part)) continue;
+            if (!collectBlocks(input.constraints.blocks, part, kFinishRows)) continue;
             if (!std::exchange(renewed, true)) input.monitor.before(input.velocities);
-            Real residual = 0, goal = tolerance;
-            for (const std::uint32_t k : blocks_) {
-                const Block<S>& block = input.constraints.blocks[k];
-                const Real found = blockResidual<S>(input.constraints, block, input.velocities);
-                if (!(found <= residual)) residual = found;
-                goal = std::max(goal, blockResolution<S>(input.constraints, block, input.velocities));
-            }
-            if (residual <= goal) continue;
-            const Real reached = finishPart(input, residual, goal);
-            if (reached < residual) worst = std::max(worst, reached);
+            const Residual left = residualOf(input);
+            if (left.found <= left.goal) continue;
+            if (!isWorthFinishing(input, part, left)) continue;
+            const Real reached = finishPart(input, left);
+            if (reached < left.found) worst = std::max(worst, reached);
         }
         if (worst >= 0) input.monitor.after(input.velocities, worst);
     }
 
-    /// The blocks of a part. False: it has too many rows for Newton's method.
-    bool collectBlocks(const std::vector<Block<S>>& blocks, std::size_t part) {
+    /// Newton's method solves contacts of few bodies sooner than sweeps that converge slowly. What it does not
+    /// solve is swept on.
+    void finishEarly(const SolverInput<S>& input) {
+        if (!mayFinish(input)) return;
+        for (std::size_t part = 0; part < parts_.count(); ++part) {
+            if (solved_[part] || !collectBlocks(input.constraints.blocks, part, kEarlyRows)) continue;
+            if (hasJoints(input)) continue;
+            input.monitor.before(input.velocities, blocks_);
+            const Residual left = residualOf(input);
+            if (left.found > left.goal)
+                order_.apply<S>(input.constraints.blocks, input.velocities.size(), blocks_);
+            solved_[part] = left.found <= left.goal || finishPart(input, left) <= left.goal;
+        }
+    }
+
+    static bool mayFinish(const SolverInput<S>& input) {
+        return input.monitor.tolerance() > 0 && input.iterations >= kFinishIterations &&
+               input.friction == &frictionCone<Real>;
+    }
+
+    /// Natural map of the blocks of a part [m/s], and what is asked of it.
+    struct Residual {
+        Real found = 0, goal = 0;
+    };
+    Residual residualOf(const SolverInput<S>& input) const {
+        Residual residual{0, input.monitor.tolerance()};
+        for (const std::uint32_t k : blocks_) {
+            const Block<S>& block = input.constraints.blocks[k];
+            const Real found = blockResidual<S>(input.constraints, block, input.velocities);
+            if (!(found <= residual.found)) residual.found = found;
+            residual.goal =
+                std::max(residual.goal, blockResolution<S>(input.constraints, block, input.velocities));
+        }
+        return residual;
+    }
+
+    /// The blocks of a part. False: it has more rows than `most`.
+    bool collectBlocks(const std::vector<Block<S>>& blocks, std::size_t part, std::size_t most) {
         blocks_.clear();
         std::size_t rows = 0;
         for (const std::uint32_t group : parts_.units(part))
             for (std::uint32_t k = groups_[group]; k < groups_[group + 1]; ++k) {
                 rows += blocks[k].rows;
-                if (rows > kFinishRows) return false;
+                if (rows > most) return false;
                 blocks_.push_back(k);
             }
         return true;
     }
 
+    /// Orders the blocks of a part for elimination. Newton's method takes small parts whatever is left of them, and
+    /// larger ones that sweeps have not solved, but sorted into open, sticking and sliding contacts.
+    bool isWorthFinishing(const SolverInput<S>& input, std::size_t part, const Residual& left) {
+        order_.apply<S>(input.constraints.blocks, input.velocities.size(), blocks_);
+        std::size_t rows = 0;
+        for (const std::uint32_t k : blocks_) rows += input.constraints.blocks[k].rows;
+        if (rows <= kSmallRows) return true;
+        return !solved_[part] && order_.cost() < kFinishCost &&
+               left.found < kSorted * input.monitor.tolerance();
+    }
+
     /// Returns the residual reached.
-    Real finishPart(const SolverInput<S>& input, Real residual, Real goal) {
+    Real finishPart(const SolverInput<S>& input, const Residual& left) {
         newton_.forget();
-        if (parts_.count() == 1) return newton_.attempt(input, residual, goal, kFinishSteps);
         problem_.load(input, blocks_);
-        const Real reached = newton_.attempt(problem_.input(), residual, goal, kFinishSteps);
+        const Real reached = newton_.attempt(problem_.input(), left.found, left.goal, kFinishSteps);
         problem_.store();
         return reached;
     }
@@ -181,37 +247,53 @@ class BlockGaussSeidel final : public Solver<S> {
     }
 
     /// Returns the residual of the group before it was solved.
-    Real solveGroup(const SolverInput<S>& input, std::uint32_t first, std::uint32_t last) {
+    Real solveGroup(const SolverInput<S>& input, std::size_t group) {
+        const std::uint32_t first = groups_[group], last = groups_[group + 1];
         if (isJoint(input.constraints.blocks[first]))
             return joints_.solveUnit(joints_.unitOf(first), input.constraints, input.velocities);
-        Real found = 0;
-        const Real enough =
-            std::max(kInnerFloor * input.monitor.tolerance(), std::numeric_limits<Real>::epsilon());
-        const int sweeps = last - first > 1 ? kInnerSweeps : 1;
-        for (int sweep = 0; sweep < sweeps; ++sweep) {
-            Real largest = 0;
-            for (std::uint32_t k = 0; k < last - first; ++k) {
-                // Always forwards, which measurably calms stacks.
-                const Block<S>& block = input.constraints.blocks[first + k];
-                Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
-                if (block.kind == BlockKind::Moment) {
-                    largest = std::max(largest, solveMoment(input, block, a, b));
-                    continue;
-                }
-                const Real residual = solveNormal(input, block, a, b);
-                largest = std::max({largest, residual, solveFriction(input, block, a, b)});
-            }
-            if (sweep == 0) found = largest;
-            if (largest <= std::max(kInnerTolerance * found, enough)) break;
+        const Real found = sweepOnce(input, first, last);
+        if (last - first == 1) return found;
+        const Real enough = std::max({kInnerFloor * input.monitor.tolerance(),
+                                      std::numeric_limits<Real>::epsilon(), kInnerTolerance * found});
+        if (found <= enough) return found;
+        if (contacts_.takes(group)) {
+            contacts_.sweep(input, group, {input.constraints.blocks.data() + first, last - first},
+                            kInnerSweeps - 1, enough);
+            return found;
         }
+        for (int sweep = 1; sweep < kInnerSweeps; ++sweep)
+            if (sweepOnce(input, first, last) <= enough) break;
         return found;
     }
 
-    static constexpr std::size_t kFinishRows = 128;  ///< n^3 / 3 is then less than a millisecond
+    /// Sweeps over the blocks of a group, always forwards, which measurably calms stacks.
+    static Real sweepOnce(const SolverInput<S>& input, std::uint32_t first, std::uint32_t last) {
+        Real largest = 0;
+        for (std::uint32_t k = first; k < last; ++k) {
+            const Block<S>& block = input.constraints.blocks[k];
+            Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
+            if (block.kind == BlockKind::Moment) {
+                largest = std::max(largest, solveMoment(input, block, a, b));
+                continue;
+            }
+            const Real residual = solveNormal(input, block, a, b);
+            largest = std::max({largest, residual, solveFriction(input, block, a, b)});
+        }
+        return largest;
+    }
+
+    static constexpr int kPlainSweeps =
+        2;  ///< before conjugate gradients: most parts of scenes at rest need no more
+    static constexpr int kEarlyIterations = 6;  ///< sweeps before Newton's method takes the smallest parts,
+    static constexpr std::size_t kEarlyRows = 48;  ///< those of so many rows at most
+    static constexpr int kFinishIterations = 30;   ///< fewer than that are too few to sort contacts by
     static constexpr int kFinishSteps = 12;
-    static constexpr int kFinishIterations = 30;         ///< fewer than that are too few to sort contacts by
-    static constexpr int kInnerSweeps = 10;              ///< maximum number of sweeps per solve of a group
-    static constexpr Real kInnerTolerance = Real(0.01);  ///< relative to the first sweep's residual
+    static constexpr std::size_t kSmallRows = 128;  ///< n^3 / 3 is then less than a millisecond
+    static constexpr std::size_t kFinishRows = 512;
+    static constexpr double kFinishCost = 2e6;           ///< multiplications of a step: about a millisecond
+    static constexpr Real kSorted = Real(1e4);           ///< multiple of the tolerance: contacts are sorted
+    static constexpr int kInnerSweeps = 5;               ///< maximum number of sweeps per solve of a group
+    static constexpr Real kInnerTolerance = Real(0.03);  ///< relative to the first sweep's residual
     static constexpr Real kInnerFloor =
         Real(1e-3);  ///< fraction of the tolerance below which a group stays as it is
     const Tasks* tasks_ = &Tasks::one();
@@ -221,7 +303,10 @@ class BlockGaussSeidel final : public Solver<S> {
     std::vector<Real> found_;            ///< residual of each group before its last solve
     std::vector<std::uint32_t> blocks_;  ///< blocks of a part
     PartProblem<S> problem_;
+    EliminationOrder order_;
     SweepOrder sweeps_;
+    ContactGroups<S> contacts_;
+    ConjugateSweeps<S> conjugate_;
     JointGroup<S> joints_;
     NewtonFinish<S> newton_;
 };
