@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "cli/command.hpp"
@@ -155,6 +156,10 @@ std::vector<BenchWork> planAll(const BenchArguments& a) {
     parts.seed = a.target.seed;
     parts.binary = ownBinary().string();
     for (auto& part : planParts(a, parts)) work.push_back(std::move(part));
+    // An engine may be named twice: by itself and by its preset.
+    std::set<std::string> known;
+    std::erase_if(work,
+                  [&](const BenchWork& w) { return !known.insert(validation::benchId(w.planned)).second; });
     if (work.empty()) throw std::invalid_argument("bench: no engine can run any of this");
     return work;
 }

@@ -89,6 +89,13 @@ TEST_F(BenchCommand, SizesMakeAGrowthCurve) {
     EXPECT_THAT(cases.at(1).at("command").get<std::string>(), HasSubstr("--size 6"));
 }
 
+TEST_F(BenchCommand, AnEngineNamedTwiceIsTimedOnce) {
+    const auto result = bench(
+        "--engines double_free_flight,double_free_flight --least 1 --most 1 --json -q" + out("twice"), false);
+    ASSERT_EQ(result.code, 0) << result.out;
+    EXPECT_EQ(json::parse(result.out).at("cases").size(), 1u);
+}
+
 TEST_F(BenchCommand, ABaselineIsComparedCaseByCase) {
     const std::string common = " --least 8 --most 8 --clock wall -q";
     ASSERT_EQ(bench("--engines double_free_flight:pause_us=1000" + common + out("before")).code, 0);
