@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/interface/planar_joints.hpp"
+
 namespace rigor::box2d {
 namespace {
 
@@ -154,48 +156,17 @@ Parts addSlider(b2World& world, const Joint& joint, const Ends& ends, double sca
     return parts;
 }
 
-bool held(const scenario::JointAxis& axis) {
-    using scenario::AxisMode;
-    const bool locked = axis.mode == AxisMode::Locked || axis.mode == AxisMode::Usual;
-    return locked && !axis.hasMotor() && !axis.hasSpring();
-}
 bool freeAltogether(const scenario::JointAxis& axis) {
     return axis.mode == scenario::AxisMode::Free && !axis.hasMotor() && !axis.hasSpring();
-}
-
-/// The joint of the format that leaves one travel, the angle, or both to choose for, as a six_dof that does.
-/// If its travel is along the normal, that is the axis.
-Joint reducedSixDof(const Joint& joint) {
-    const auto chosen = [](scenario::JointAxis axis) {
-        if (axis.mode == scenario::AxisMode::Usual) axis.mode = scenario::AxisMode::Free;
-        return axis;
-    };
-    const scenario::JointAxis &x = joint.axes[0], &y = joint.axes[1], &angle = joint.axes[2];
-    Joint reduced = joint;
-    reduced.axes = {};
-    if (held(x) && held(y)) {
-        reduced.type = held(angle) ? JointType::Fixed : JointType::Hinge;
-        if (!held(angle)) reduced.axes[0] = chosen(angle);
-        return reduced;
-    }
-    if (held(x)) {
-        const adapter::Vec3 up{0.0, 0.0, 1.0};
-        reduced.axisA = cross(up, joint.axisA);
-        reduced.axisB = cross(up, joint.axisB);
-    }
-    reduced.axes[0] = chosen(held(x) ? y : x);
-    reduced.type = held(angle) ? JointType::Slider : JointType::Wheel;
-    if (!held(angle)) reduced.axes[1] = chosen(angle);
-    return reduced;
 }
 
 /// Two travels left altogether free: nothing, or a motor joint that has a torque alone and holds the angle.
 Parts addFreeTravels(b2World& world, const Joint& joint, const Ends& ends) {
     const scenario::JointAxis &x = joint.axes[0], &y = joint.axes[1], &angle = joint.axes[2];
-    if (!freeAltogether(x) || !freeAltogether(y) || !(freeAltogether(angle) || held(angle)))
+    if (!freeAltogether(x) || !freeAltogether(y) || !(freeAltogether(angle) || adapter::isHeld(angle)))
         unsupported(joint, "six_dof with two travels, one of which or whose angle is more than free",
                     "b2_joint.h, enum b2JointType; b2_motor_joint.h, b2MotorJointDef: one pose to hold");
-    if (!held(angle)) return {};
+    if (!adapter::isHeld(angle)) return {};
     b2MotorJointDef def;
     def.bodyA = ends.a.body;
     def.bodyB = ends.b.body;
@@ -232,8 +203,9 @@ Parts addJoint(b2World& world, const Joint& joint, const JointEnd& a, const Join
         case JointType::Wheel:
             return {addWheel(world, joint, ends, scale)};
         case JointType::SixDof:
-            if (!held(joint.axes[0]) && !held(joint.axes[1])) return addFreeTravels(world, joint, ends);
-            return addJoint(world, reducedSixDof(joint), a, b, scale);
+            if (const auto reduced = adapter::reducedPlanarJoint(joint))
+                return addJoint(world, *reduced, a, b, scale);
+            return addFreeTravels(world, joint, ends);
         case JointType::ConeTwist:
             break;
     }
