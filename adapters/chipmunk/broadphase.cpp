@@ -29,6 +29,7 @@ class Index final : public adapter::BroadPhase {
         if (boxes.size() != proxies_.size()) rebuild(boxes);
         for (std::size_t i = 0; i < boxes.size(); ++i) proxies_[i].box = toBox(boxes[i]);
         pairs.clear();
+        if (boxes.empty()) return;
         cpSpatialIndexReindexQuery(index_.get(), collect, &pairs);
         // A tree's leaves stay as large as they were; a hash reports a pair for each cell that it shares.
         std::erase_if(pairs, [&](const Pair& pair) {
@@ -52,9 +53,8 @@ class Index final : public adapter::BroadPhase {
         const double cell =
             boxes.empty() ? 1.0 : std::max(0.5 * size / static_cast<double>(boxes.size()), 1e-6);
         const int cells = 10 * static_cast<int>(boxes.size()) + 1;
-        index_.reset(algorithm_ == "bb_tree"        ? cpBBTreeNew(boxOf, nullptr)
-                     : algorithm_ == "spatial_hash" ? cpSpaceHashNew(cell, cells, boxOf, nullptr)
-                                                    : cpSweep1DNew(boxOf, nullptr));
+        index_.reset(algorithm_ == "bb_tree" ? cpBBTreeNew(boxOf, nullptr)
+                                             : cpSpaceHashNew(cell, cells, boxOf, nullptr));
         proxies_.clear();
         for (std::size_t i = 0; i < boxes.size(); ++i)
             proxies_.push_back({static_cast<int>(i), toBox(boxes[i])});
@@ -74,7 +74,7 @@ std::unique_ptr<adapter::BroadPhase> ChipmunkBroadPhaseEngine::create(const std:
     const auto known = algorithms();
     if (std::find(known.begin(), known.end(), algorithm) == known.end())
         throw adapter::notInLibrary("chipmunk", "broad phase '" + algorithm + "'",
-                                    "chipmunk/cpSpatialIndex.h: a tree, a hash and a sweep of one axis");
+                                    "chipmunk/cpSpatialIndex.h: a tree and a hash for any shapes");
     if (dimension != 2)
         throw adapter::notInLibrary("chipmunk", "broad phase in three dimensions", kTwoDimensions);
     return std::make_unique<Index>(algorithm);

@@ -48,7 +48,8 @@ CollisionAnswer ChipmunkCollisionEngine::collide(const CollisionQuery& query) co
                 contact.pointA = origin + fromChipmunk(set.points[i].pointA);
                 contact.pointB = origin + fromChipmunk(set.points[i].pointB);
                 contact.normal = fromChipmunk(set.normal);
-                contact.depth = -set.points[i].distance;
+                // points[i].distance has the wrong sign where Chipmunk has exchanged the shapes.
+                contact.depth = dot(contact.pointA - contact.pointB, contact.normal);
                 answer.contacts.push_back(contact);
             }
         }

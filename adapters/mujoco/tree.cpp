@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "adapters/mujoco/tree.hpp"
+
+#include <cmath>
+#include <deque>
+
+namespace rigor::mujoco {
+namespace {
+
+using scenario::Body;
+using scenario::BodyType;
+using scenario::Joint;
+using scenario::JointType;
+
+/// MuJoCo's frame of a body and its moments there.
+void setFrame(const Body& body, bool planar, Link& link) {
+    link.frame.position = body.massProperties.centerOfMass;
+    const Mat3& inertia = body.massProperties.inertia;
+    link.moments = {inertia(0, 0), inertia(1, 1), inertia(2, 2)};
+    if (body.type != BodyType::Dynamic || planar) return;
+    if (inertia(0, 1) == 0.0 && inertia(0, 2) == 0.0 && inertia(1, 2) == 0.0) return;
+    mjtNum matrix[9], moments[3], axes[9], quat[4];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) matrix[3 * i + j] = inertia(i, j);
+    mju_eig3(moments, axes, quat, matrix);
+    link.frame.orientation = normalized(quatFromMujoco(quat));
+    link.moments = fromMujoco(moments);
+}
+
+class Search {
+  public:
+    Search(const adapter::Scenario& scenario, bool planar) : scenario_(scenario), used_(scenario.joints.size()) {
+        const int count = static_cast<int>(scenario.bodies.size());
+        forest_.links.resize(scenario.bodies.size());
+        seen_.resize(scenario.bodies.size());
+        for (int i = 0; i < count; ++i) setFrame(scenario.bodies[i], planar, forest_.links[i]);
+        // From what is not moved by joints first, so that loops are closed as far away from it as possible.
+        for (int i = 0; i < count; ++i) {
+            forest_.links[i].fixed = scenario.bodies[i].type == BodyType::Static;
+            if (!isDynamic(i)) visit(i);
+        }
+        queue_.push_back(kNone);
+        run();
+        for (int i = 0; i < count; ++i) {
+            if (seen_[i]) continue;
+            visit(i);
+            run();
+        }
+        for (std::size_t j = 0; j < scenario.joints.size(); ++j)
+            if (!used_[j] && isLink(scenario.joints[j]) &&
+                (isDynamic(scenario.joints[j].bodyA) || isDynamic(scenario.joints[j].bodyB)))
+                forest_.loops.push_back(static_cast<int>(j));
+    }
+    Forest take() { return std::move(forest_); }
+
+  private:
+    bool isDynamic(int body) const {
+        return body != kNone && scenario_.bodies[body].type == BodyType::Dynamic;
+    }
+    static bool isLink(const Joint& joint) { return joint.type != JointType::Distance; }
+
+    void visit(int body) {
+        seen_[body] = true;
+        Link& link = forest_.links[body];
+        const Pose pose = scenario_.bodies[body].pose * link.frame;
+        link.rest = pose;
+        if (link.parent != kNone) {
+            const Pose parent = scenario_.bodies[link.parent].pose * forest_.links[link.parent].frame;
+            link.rest = inverse(parent) * pose;
+            forest_.links[link.parent].children.push_back(body);
+        }
+        forest_.order.push_back(body);
+        queue_.push_back(body);
+    }
+    void run() {
+        while (!queue_.empty()) {
+            const int at = queue_.front();
+            queue_.pop_front();
+            for (std::size_t j = 0; j < scenario_.joints.size(); ++j) {
+                const Joint& joint = scenario_.joints[j];
+                if (used_[j] || !isLink(joint) || (joint.bodyA != at && joint.bodyB != at)) continue;
+                const int other = joint.bodyA == at ? joint.bodyB : joint.bodyA;
+                if (!isDynamic(other) || seen_[other]) continue;
+                used_[j] = true;
+                Link& link = forest_.links[other];
+                link.parent = at;
+                link.joint = static_cast<int>(j);
+                link.reversed = other == joint.bodyA;
+                visit(other);
+            }
+        }
+    }
+
+    const adapter::Scenario& scenario_;
+    std::vector<bool> used_, seen_;
+    std::deque<int> queue_;
+    Forest forest_;
+};
+
+}  // namespace
+
+Forest spanningForest(const adapter::Scenario& scenario, bool planar) {
+    return Search(scenario, planar).take();
+}
+
+Vec3 anchorIn(const Link& link, const Joint& joint) {
+    return inverse(link.frame) * (link.reversed ? joint.anchorA : joint.anchorB);
+}
+
+Vec3 axisIn(const Link& link, const Joint& joint) {
+    const Vec3 axis = rotateInverse(link.frame.orientation, link.reversed ? joint.axisA : joint.axisB);
+    return link.reversed ? -axis : axis;
+}
+
+Vec3 spinIn(const Link& link, const adapter::Scenario& scenario, const Joint& joint) {
+    if (!link.reversed) return rotateInverse(link.frame.orientation, joint.spinAxisB);
+    const auto turnOf = [&](int body) { return body == kNone ? Quat{} : scenario.bodies[body].pose.orientation; };
+    const Vec3 world = rotate(turnOf(joint.bodyB), joint.spinAxisB);
+    return -rotateInverse(turnOf(joint.bodyA) * link.frame.orientation, world);
+}
+
+}  // namespace rigor::mujoco

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The joints of a scenario as MuJoCo's kinematic trees: every body hangs on at most one joint, in reduced coordinates;
+// joints that are left close loops.
+#pragma once
+
+#include <vector>
+
+#include "adapters/mujoco/convert.hpp"
+
+namespace rigor::mujoco {
+
+using scenario::kNone;
+
+/// One body of the scenario in the trees. MuJoCo's body frame has its origin in the centre of mass; that of a dynamic
+/// body in space has the principal axes.
+struct Link {
+    int parent = kNone;     ///< scenario body that it hangs on; kNone: the world
+    int joint = kNone;      ///< scenario joint; kNone: none, a free or static body
+    bool reversed = false;  ///< the joint's A hangs on its B
+    bool fixed = false;     ///< static
+    Pose frame;             ///< MuJoCo's body frame in the scenario's body frame
+    Vec3 moments;           ///< of inertia about the axes of `frame` [kg m^2]
+    Pose rest;              ///< initial pose in the frame of the parent
+    std::vector<int> children;
+};
+
+struct Forest {
+    std::vector<Link> links;  ///< by scenario body
+    std::vector<int> order;   ///< parents before their children
+    std::vector<int> loops;   ///< joints that close loops
+};
+
+/// `scenario` is three-dimensional; `planar` if it was lifted from two dimensions.
+Forest spanningForest(const adapter::Scenario& scenario, bool planar);
+
+/// Anchor and axis of a joint as the child of a link has them, in the link's frame. The axis points so that its
+/// coordinate is the scenario's.
+Vec3 anchorIn(const Link& link, const scenario::Joint& joint);
+Vec3 axisIn(const Link& link, const scenario::Joint& joint);
+/// Axis of a wheel's pin. `scenario` gives the initial poses.
+Vec3 spinIn(const Link& link, const adapter::Scenario& scenario, const scenario::Joint& joint);
+
+}  // namespace rigor::mujoco
