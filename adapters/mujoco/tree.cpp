@@ -30,7 +30,8 @@ void setFrame(const Body& body, bool planar, Link& link) {
 
 class Search {
   public:
-    Search(const adapter::Scenario& scenario, bool planar) : scenario_(scenario), used_(scenario.joints.size()) {
+    Search(const adapter::Scenario& scenario, bool planar)
+        : scenario_(scenario), used_(scenario.joints.size()) {
         const int count = static_cast<int>(scenario.bodies.size());
         forest_.links.resize(scenario.bodies.size());
         seen_.resize(scenario.bodies.size());
@@ -115,7 +116,9 @@ Vec3 axisIn(const Link& link, const Joint& joint) {
 
 Vec3 spinIn(const Link& link, const adapter::Scenario& scenario, const Joint& joint) {
     if (!link.reversed) return rotateInverse(link.frame.orientation, joint.spinAxisB);
-    const auto turnOf = [&](int body) { return body == kNone ? Quat{} : scenario.bodies[body].pose.orientation; };
+    const auto turnOf = [&](int body) {
+        return body == kNone ? Quat{} : scenario.bodies[body].pose.orientation;
+    };
     const Vec3 world = rotate(turnOf(joint.bodyB), joint.spinAxisB);
     return -rotateInverse(turnOf(joint.bodyA) * link.frame.orientation, world);
 }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// MJCF, the XML of MuJoCo's models, of a scenario. Names are those of the scenario's indices: body b3, geom g3_0, joints
+// j5 and (of a wheel) j5_spin, tendon t5, actuators a5 and a5_spin.
+#pragma once
+
+#include <string>
+
+#include "adapters/mujoco/model.hpp"
+
+namespace rigor::mujoco {
+
+std::string bodyName(int body);
+std::string geomName(int body, int shape);
+std::string jointTag(int joint, const char* what = "");
+
+/// The whole text. Adds to `model` the surfaces that it has chosen.
+std::string mjcfOf(const adapter::Scenario& scenario, const adapter::PairTable& pairs, bool planar, double dt,
+                   const ModelSettings& settings, Model& model);
+
+}  // namespace rigor::mujoco

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A scenario as a compiled mjModel, with the tables that lead from one to the other.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapters/mujoco/library.hpp"
+#include "adapters/mujoco/surface.hpp"
+#include "adapters/mujoco/tree.hpp"
+
+namespace rigor::mujoco {
+
+/// Settings of a spec that the model depends on.
+struct ModelSettings {
+    std::string integrator, cone, solver, jacobian;
+    int iterations = 100, noslipIterations = 0;
+    double tolerance = 1e-8, impratio = 1.0;
+    bool warmStart = true, safeReference = true, restitution = true;
+    double bounceFrequency = 1.0;  ///< of contacts with restitution [rad/s]
+    Softness softness;
+};
+
+/// A motor of a joint coordinate: a velocity servo whose force is bounded.
+struct Motor {
+    int joint = kNone;  ///< scenario joint
+    int actuator = 0;   ///< index in the model
+    int dof = 0;
+    double speed = 0.0;  ///< [u/s]
+};
+
+struct Model {
+    ModelOwner model;
+    Forest forest;
+    std::vector<int> bodies;                           ///< MuJoCo's bodies, by scenario body
+    std::vector<adapter::PairTable::ShapeRef> shapes;  ///< scenario shapes by geom
+    std::vector<std::vector<int>> geoms;               ///< geoms by scenario body and shape; -1: none
+    std::vector<Motor> motors;
+    Surface common;         ///< of geoms that no explicit pair names
+    int explicitPairs = 0;  ///< pairs of geoms whose surface is another
+};
+
+/// `scenario` is three-dimensional and has springs by stiffness; `planar` if it was lifted. Throws Unsupported.
+Model buildModel(const adapter::Scenario& scenario, const adapter::PairTable& pairs, bool planar, double dt,
+                 const ModelSettings& settings);
+
+/// The mass of kinematic bodies in MuJoCo, which moves them by its forces: so large that nothing else does [kg].
+inline constexpr double kKinematicMass = 1e9;
+
+}  // namespace rigor::mujoco

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Poses and velocities of bodies as MuJoCo's coordinates: those of a free body are its own, those of a body that hangs
+// on a joint are relative to the body it hangs on. What its joint does not allow is lost.
+#include <cmath>
+#include <numbers>
+
+#include "adapters/mujoco/world.hpp"
+
+namespace rigor::mujoco {
+
+using adapter::BodyState;
+using scenario::Joint;
+using scenario::JointType;
+
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+/// The angle in the turn nearest to where the coordinate is: MuJoCo counts turns, and limits with them.
+double near(double angle, double now) {
+    return angle + kTurn * std::round((now - angle) / kTurn);
+}
+
+}  // namespace
+
+/// World pose of MuJoCo's frame of a body.
+Pose MujocoWorld::linkPose(int body, const BodyState& state) const {
+    return Pose{state.position, state.orientation} * model_.forest.links[body].frame;
+}
+
+void MujocoWorld::placeFree(int body, const Pose& pose, const BodyState& state) {
+    const mjModel& model = *model_.model;
+    const int id = model_.bodies[body];
+    mjtNum* q = data_->qpos + model.jnt_qposadr[model.body_jntadr[id]];
+    mjtNum* v = data_->qvel + model.body_dofadr[id];
+    if (planar_) {
+        q[0] = pose.position.x;
+        q[1] = pose.position.y;
+        q[2] = near(angleAboutZ(pose.orientation), q[2]);
+        v[0] = state.velocity.x;
+        v[1] = state.velocity.y;
+        v[2] = state.angularVelocity.z;
+        return;
+    }
+    toMujoco(pose.position, q);
+    toMujoco(pose.orientation, q + 3);
+    toMujoco(state.velocity, v);
+    toMujoco(rotateInverse(pose.orientation, state.angularVelocity), v + 3);
+}
+
+void MujocoWorld::placeLink(int body, std::span<const BodyState> states) {
+    const Link& link = model_.forest.links[body];
+    if (link.fixed) return;
+    const Pose pose = linkPose(body, states[body]);
+    if (link.joint == kNone) return placeFree(body, pose, states[body]);
+    const mjModel& model = *model_.model;
+    const Joint& joint = scenario_.joints[link.joint];
+    const int id = model_.bodies[body], first = model.body_jntadr[id];
+    // The parent: pose, and velocity at the point of it that is at the child's anchor.
+    const Vec3 anchor = anchorIn(link, joint);
+    Pose parent;
+    Vec3 parentTurn, parentSpeed;
+    if (link.parent != kNone) {
+        const BodyState& state = states[link.parent];
+        parent = linkPose(link.parent, state);
+        parentTurn = state.angularVelocity;
+        parentSpeed = state.velocity + cross(parentTurn, pose * anchor - parent.position);
+    }
+    const BodyState& state = states[body];
+    const Vec3 speed =
+        state.velocity + cross(state.angularVelocity, pose * anchor - pose.position) - parentSpeed;
+    const Vec3 turn = rotateInverse(pose.orientation, state.angularVelocity - parentTurn);
+    const Pose relative = inverse(parent) * pose;
+    Quat turned = conjugate(link.rest.orientation) * relative.orientation;
+    if (turned.w < 0.0) turned = {-turned.w, -turned.x, -turned.y, -turned.z};
+    for (int k = 0; k < model.body_jntnum[id]; ++k) {
+        mjtNum* q = data_->qpos + model.jnt_qposadr[first + k];
+        mjtNum* v = data_->qvel + model.jnt_dofadr[first + k];
+        const Vec3 axis = fromMujoco(model.jnt_axis + 3 * (first + k));
+        switch (model.jnt_type[first + k]) {
+            case mjJNT_BALL:
+                toMujoco(turned, q);
+                toMujoco(turn, v);
+                break;
+            case mjJNT_HINGE:
+                q[0] = near(2.0 * std::atan2(dot(Vec3{turned.x, turned.y, turned.z}, axis), turned.w), q[0]);
+                v[0] = dot(turn, axis);
+                break;
+            default: {
+                // A reversed wheel slides along its own axis, everything else along one of its parent's.
+                const bool own = link.reversed && joint.type == JointType::Wheel;
+                const Vec3 along = rotate(own ? Quat{} : link.rest.orientation, axis);
+                const Vec3 moved = own ? anchor - inverse(relative) * (link.rest * anchor)
+                                       : relative * anchor - link.rest * anchor;
+                q[0] = dot(moved, along);
+                v[0] = dot(speed, rotate(own ? pose.orientation : parent.orientation, along));
+            }
+        }
+    }
+}
+
+void MujocoWorld::setStates(std::span<const BodyState> states) {
+    std::vector<BodyState> all(scenario_.bodies.size());
+    readStates(all);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (scenario_.bodies[i].type == scenario::BodyType::Dynamic) all[i] = states[i];
+    for (const int body : model_.forest.order)
+        if (scenario_.bodies[body].type == scenario::BodyType::Dynamic) placeLink(body, all);
+    mju_zero(data_->qacc_warmstart, model_.model->nv);
+    updatePoses();
+}
+
+}  // namespace rigor::mujoco
