@@ -16,9 +16,9 @@
 
 #include "adapters/bullet/convert.hpp"
 #include "adapters/bullet/joints.hpp"
-#include "adapters/bullet/principal_axes.hpp"
 #include "adapters/interface/joint_springs.hpp"
 #include "adapters/interface/planar.hpp"
+#include "adapters/interface/principal_axes.hpp"
 #include "adapters/interface/reach.hpp"
 
 namespace rigor::bullet {
@@ -190,7 +190,7 @@ void BulletWorld::addBody(int index) {
     btVector3 moments(0, 0, 0);
     record->comFrame.position = body.massProperties.centerOfMass;
     if (dynamic) {
-        const PrincipalAxes principal = principalAxes(body.massProperties.inertia);
+        const adapter::PrincipalAxes principal = adapter::principalAxes(body.massProperties.inertia);
         record->comFrame.orientation = principal.axes;
         moments = toBullet(principal.moments);
     }

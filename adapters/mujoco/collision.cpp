@@ -6,6 +6,7 @@
 
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/planar.hpp"
+#include "adapters/interface/surface_points.hpp"
 #include "adapters/mujoco/geoms.hpp"
 #include "adapters/mujoco/library.hpp"
 #include "scenarios/model/surfaces.hpp"
@@ -60,8 +61,10 @@ adapter::CollisionAnswer MujocoCollisionEngine::collide(const adapter::Collision
         point.bodyB = 1;
         point.normal = (c.geom1 == first ? 1.0 : -1.0) * fromMujoco(c.frame);
         point.depth = -c.dist;
-        point.pointA = fromMujoco(c.pos) + 0.5 * point.depth * point.normal;
-        point.pointB = fromMujoco(c.pos) - 0.5 * point.depth * point.normal;
+        const auto [onA, onB] = adapter::surfacePoints({&a, query.a.pose}, {&b, query.b.pose},
+                                                       fromMujoco(c.pos), point.normal, point.depth);
+        point.pointA = onA;
+        point.pointB = onB;
         answer.contacts.push_back(point);
     }
     std::stable_sort(answer.contacts.begin(), answer.contacts.end(),

@@ -34,7 +34,7 @@ std::string softnessText(const Softness& s, const char* solref = "solref", const
 class ModelWriter {
   public:
     ModelWriter(const adapter::Scenario& scenario, const adapter::PairTable& pairs, bool planar, double dt,
-           const ModelSettings& settings, Model& model)
+                const ModelSettings& settings, Model& model)
         : scenario_(scenario), pairs_(pairs), planar_(planar), dt_(dt), settings_(settings), model_(model) {}
 
     std::string text() {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace rigor::mujoco {
 
@@ -29,16 +28,29 @@ Softness Surface::softness(const Softness& plain, double bounceFrequency) const 
     return bouncing;
 }
 
+double restitutionOf(double z) {
+    if (z <= 0.0) return 1.0;
+    const double cosine = 2.0 * z * z - 1.0;
+    double time = 2.0;
+    if (z < 1.0) time = std::acos(cosine) / std::sqrt(1.0 - z * z);
+    if (z > 1.0) time = std::acosh(cosine) / std::sqrt(z * z - 1.0);
+    return std::exp(-z * time);
+}
+
+/// By bisection: e falls with the ratio.
 double dampingRatioOf(double restitution) {
     if (restitution >= 1.0) return 0.0;
-    const double l = std::log(restitution);
-    return -l / std::sqrt(std::numbers::pi * std::numbers::pi + l * l);
+    double low = 0.0, high = 1.0;
+    while (restitutionOf(high) > restitution) high *= 2.0;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = 0.5 * (low + high);
+        (restitutionOf(middle) > restitution ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
 }
 
 double restitutionOf(const mjtNum* solref) {
-    if (solref[0] >= 0.0) return 0.0;
-    const double ratio = -0.5 * solref[1] / std::sqrt(-solref[0]);
-    return ratio >= 1.0 ? 0.0 : std::exp(-std::numbers::pi * ratio / std::sqrt(1.0 - ratio * ratio));
+    return solref[0] < 0.0 ? restitutionOf(-0.5 * solref[1] / std::sqrt(-solref[0])) : 0.0;
 }
 
 }  // namespace rigor::mujoco

@@ -28,9 +28,15 @@ struct Surface {
 
 Surface surfaceOf(const scenario::PairCoefficients& pair);
 
-/// A contact that bounces is a spring of angular frequency w with the damping ratio z of e = exp(-pi z / sqrt(1 - z^2)):
-/// half a swing returns the part e of the approach speed. MuJoCo takes it as solref = (-w^2, -2 z w).
+/// A contact that bounces is a damped spring that only pushes: x'' = -w^2 x - 2 z w x' until the force vanishes. The
+/// part of the approach speed that it returns [Schwager, Poeschel, Physical Review E 78, 051304, 2008]:
+///     e = exp(-z t),   t = acos(2 z^2 - 1) / sqrt(1 - z^2)  for z < 1,   2  for z = 1,
+///                          acosh(2 z^2 - 1) / sqrt(z^2 - 1)  for z > 1
+/// MuJoCo takes such a spring as solref = (-w^2, -2 z w).
+double restitutionOf(double dampingRatio);
+/// Its inverse, for 0 < e <= 1.
 double dampingRatioOf(double restitution);
+/// Of a contact with these solref and solimp of constant impedance; 0 where solref is a time constant.
 double restitutionOf(const mjtNum* solref);
 
 }  // namespace rigor::mujoco

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <deque>
 
+#include "adapters/interface/principal_axes.hpp"
+
 namespace rigor::mujoco {
 namespace {
 
@@ -19,13 +21,9 @@ void setFrame(const Body& body, bool planar, Link& link) {
     const Mat3& inertia = body.massProperties.inertia;
     link.moments = {inertia(0, 0), inertia(1, 1), inertia(2, 2)};
     if (body.type != BodyType::Dynamic || planar) return;
-    if (inertia(0, 1) == 0.0 && inertia(0, 2) == 0.0 && inertia(1, 2) == 0.0) return;
-    mjtNum matrix[9], moments[3], axes[9], quat[4];
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) matrix[3 * i + j] = inertia(i, j);
-    mju_eig3(moments, axes, quat, matrix);
-    link.frame.orientation = normalized(quatFromMujoco(quat));
-    link.moments = fromMujoco(moments);
+    const adapter::PrincipalAxes principal = adapter::principalAxes(inertia);
+    link.frame.orientation = principal.axes;
+    link.moments = principal.moments;
 }
 
 class Search {

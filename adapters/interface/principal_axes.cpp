@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Bullet keeps a body's inertia as three moments along the axes of its own frame, so a full tensor has to be
-// turned into the principal frame first.
+// Bullet and MuJoCo keep a body's inertia as three moments along the axes of a frame of its own, so a full tensor has to
+// be turned into the principal frame first.
 //
 // Cyclic Jacobi method [Golub & Van Loan, Matrix Computations, 4th ed., section 8.5]: each rotation
 //   t = sgn(theta) / (|theta| + sqrt(theta^2 + 1)),  theta = (a_qq - a_pp) / (2 a_pq)
 // annihilates a_pq; a 3x3 matrix is diagonal to rounding after a handful of sweeps.
-#include "adapters/bullet/principal_axes.hpp"
+#include "adapters/interface/principal_axes.hpp"
 
 #include <cmath>
 
-namespace rigor::bullet {
-
-using adapter::Mat3;
-using adapter::Quat;
-using adapter::Vec3;
+namespace rigor::adapter {
 
 namespace {
 
@@ -52,4 +48,4 @@ PrincipalAxes principalAxes(const Mat3& inertia) {
     return {{a(0, 0), a(1, 1), a(2, 2)}, axes};
 }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::adapter

@@ -4,15 +4,15 @@
 
 #include "adapters/interface/types.hpp"
 
-namespace rigor::bullet {
+namespace rigor::adapter {
 
 struct PrincipalAxes {
-    adapter::Vec3 moments;  ///< [kg m^2]
-    adapter::Quat axes;     ///< principal frame to body frame
+    Vec3 moments;  ///< [kg m^2]
+    Quat axes;     ///< principal frame to body frame
 };
 
 /// Principal moments and axes of a symmetric tensor, by cyclic Jacobi rotations. A tensor that is diagonal
 /// already keeps its axes exactly (identity rotation).
-PrincipalAxes principalAxes(const adapter::Mat3& inertia);
+PrincipalAxes principalAxes(const Mat3& inertia);
 
-}  // namespace rigor::bullet
+}  // namespace rigor::adapter
