@@ -64,12 +64,12 @@ class MujocoEngine final : public adapter::Engine, public adapter::DynamicsEngin
             number(
                 "solref_time", 0, 1e3, "0.02", "0",
                 "time constant of contacts, stops and loops [s]; 0: two steps, the least that MuJoCo takes"),
-            number("solref_damping", 1e-3, 1e3, "1", "1", "their damping ratio"),
-            number("solimp_min", 1e-4, 0.9999, "0.9", "0.99", "impedance at no overlap"),
+            number("solref_damping", 1e-3, 1e3, "1", "3", "their damping ratio"),
+            number("solimp_min", 1e-4, 0.9999, "0.9", "0.998", "impedance at no overlap"),
             number("solimp_max", 1e-4, 0.9999, "0.95", "0.999", "impedance at an overlap of 1 mm"),
             choice("restitution", {"spring", "none"}, "spring", "spring",
                    "of pairs that bounce: a damped spring, or nothing"),
-            number("bounce_steps", 1, 1000, "10", "10", "steps that a bounce takes"),
+            number("bounce_steps", 1, 1000, "10", "20", "steps that a bounce takes"),
         };
     }
 
