@@ -67,6 +67,21 @@ function(rigor_adapter name)
     set_property(GLOBAL APPEND PROPERTY RIGOR_ADAPTER_TARGETS ${target})
 endfunction()
 
+# rigor_optional_adapter(<name> <title> <licence> <found>): an engine whose package is optional. Where it was not found, a
+# manifest that is never complete says how to get it (`rigor list engines`).
+function(rigor_optional_adapter name title licence found)
+    set(manifest ${PROJECT_BINARY_DIR}/bin/adapters/rigor_adapter_${name}.json)
+    if(found)
+        file(REMOVE ${manifest})
+        return()
+    endif()
+    message(STATUS "${title}: not found, module skipped")
+    file(REMOVE ${PROJECT_BINARY_DIR}/bin/adapters/rigor_adapter_${name}.so)
+    file(WRITE ${manifest} "{\"rigor_guest\": 1, \"protocol\": 1, \"name\": \"${name}\", \"title\": \"${title}\",
+ \"command\": [\"sh\"], \"needs\": [\"rigor_adapter_${name}.so\"], \"precision\": \"f64\",
+ \"licence\": \"${licence}\", \"install\": \"./rigor --with ${name}\"}\n")
+endfunction()
+
 function(rigor_test name)
     if(NOT RIGOR_TESTS)
         return()

@@ -181,11 +181,14 @@ void MujocoWorld::moveKinematic(const State& before) {
     }
 }
 
-/// Poses and velocities of bodies at the state that the step has led to; contacts stay those of the step.
+/// Poses and velocities of bodies at the state that the step has led to; contacts stay those of the step. Kinematics
+/// normalises the quaternions of the state, in bits that would depend on how often it is asked for.
 void MujocoWorld::updatePoses() {
+    const std::vector<mjtNum> positions(data_->qpos, data_->qpos + model_.model->nq);
     mj_kinematics(model_.model.get(), data_.get());
     mj_comPos(model_.model.get(), data_.get());
     mj_comVel(model_.model.get(), data_.get());
+    std::copy(positions.begin(), positions.end(), data_->qpos);
 }
 
 adapter::Scheme MujocoWorld::scheme() const {
