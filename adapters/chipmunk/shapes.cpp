@@ -38,7 +38,7 @@ struct Builder {
     }
     Shapes operator()(const scenario::Box& b) const {
         const double x = b.halfExtents.x, y = b.halfExtents.y;
-        return polygon({{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}});
+        return polygon({{x, -y, 0}, {x, y, 0}, {-x, y, 0}, {-x, -y, 0}});  // in the order of cpBoxShape
     }
     Shapes operator()(const scenario::Capsule& c) const {
         return one(segment({0, -c.halfLength, 0}, {0, c.halfLength, 0}, c.radius));

@@ -273,14 +273,11 @@ class ModelWriter {
     void writeLoops() {
         for (const int j : model_.forest.loops) {
             const Joint& joint = scenario_.joints[j];
-            const JointAxis& axis = joint.axes[0];
-            const bool plain = !axis.hasSpring() && !axis.hasMotor() && axis.mode != AxisMode::Limited;
-            const bool hinged = joint.type == JointType::Ball || joint.type == JointType::Hinge;
-            if (!(joint.type == JointType::Fixed || (hinged && plain)))
+            if (!canCloseLoop(joint))
                 throw adapter::notInAdapter(
                     "mujoco",
                     std::string("joint '") + jointName(joint.type) +
-                        "' with more than an axis, or another travel, that closes a loop",
+                        "' with more than an axis, or with a travel, that closes a loop",
                     "joint '" + joint.name + "'");
             const bool weld = joint.type == JointType::Fixed;
             // body1 is one of the model's, body2 the world where it is left out.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <deque>
+#include <numeric>
 
 #include "adapters/interface/principal_axes.hpp"
 
@@ -34,6 +35,7 @@ class Search {
         forest_.links.resize(scenario.bodies.size());
         seen_.resize(scenario.bodies.size());
         for (int i = 0; i < count; ++i) setFrame(scenario.bodies[i], planar, forest_.links[i]);
+        chooseJoints();
         // From what is not moved by joints first, so that loops are closed as far away from it as possible.
         for (int i = 0; i < count; ++i) {
             forest_.links[i].fixed = scenario.bodies[i].type == BodyType::Static;
@@ -59,6 +61,29 @@ class Search {
     }
     static bool isLink(const Joint& joint) { return joint.type != JointType::Distance; }
 
+    /// Marks the joints of the trees (Kruskal): those that can not close a loop first, the others by their order. What
+    /// does not move by joints counts as one body.
+    void chooseJoints() {
+        const std::size_t ground = scenario_.bodies.size();
+        std::vector<std::size_t> group(ground + 1);
+        std::iota(group.begin(), group.end(), std::size_t{0});
+        const auto groupOf = [&](int body) {
+            auto at = isDynamic(body) ? static_cast<std::size_t>(body) : ground;
+            while (group[at] != at) at = group[at] = group[group[at]];
+            return at;
+        };
+        inTree_.assign(scenario_.joints.size(), false);
+        for (const bool late : {false, true})
+            for (std::size_t j = 0; j < scenario_.joints.size(); ++j) {
+                const Joint& joint = scenario_.joints[j];
+                if (!isLink(joint) || canCloseLoop(joint) != late) continue;
+                const std::size_t a = groupOf(joint.bodyA), b = groupOf(joint.bodyB);
+                if (a == b) continue;
+                group[a] = b;
+                inTree_[j] = true;
+            }
+    }
+
     void visit(int body) {
         seen_[body] = true;
         Link& link = forest_.links[body];
@@ -78,7 +103,7 @@ class Search {
             queue_.pop_front();
             for (std::size_t j = 0; j < scenario_.joints.size(); ++j) {
                 const Joint& joint = scenario_.joints[j];
-                if (used_[j] || !isLink(joint) || (joint.bodyA != at && joint.bodyB != at)) continue;
+                if (used_[j] || !inTree_[j] || (joint.bodyA != at && joint.bodyB != at)) continue;
                 const int other = joint.bodyA == at ? joint.bodyB : joint.bodyA;
                 if (!isDynamic(other) || seen_[other]) continue;
                 used_[j] = true;
@@ -92,12 +117,19 @@ class Search {
     }
 
     const adapter::Scenario& scenario_;
-    std::vector<bool> used_, seen_;
+    std::vector<bool> used_, seen_, inTree_;
     std::deque<int> queue_;
     Forest forest_;
 };
 
 }  // namespace
+
+bool canCloseLoop(const Joint& joint) {
+    const scenario::JointAxis& axis = joint.axes[0];
+    const bool plain = !axis.hasSpring() && !axis.hasMotor() && axis.mode != scenario::AxisMode::Limited;
+    const bool turns = joint.type == JointType::Ball || joint.type == JointType::Hinge;
+    return joint.type == JointType::Fixed || (turns && plain);
+}
 
 Forest spanningForest(const adapter::Scenario& scenario, bool planar) {
     return Search(scenario, planar).take();

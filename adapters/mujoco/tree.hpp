@@ -35,6 +35,9 @@ struct Forest {
 /// `scenario` is three-dimensional; `planar` if it was lifted from two dimensions.
 Forest spanningForest(const adapter::Scenario& scenario, bool planar);
 
+/// True where an equality constraint of MuJoCo holds all that a joint does, so that it may close a loop.
+bool canCloseLoop(const scenario::Joint& joint);
+
 /// Anchor and axis of a joint as the child of a link has them, in the link's frame. The axis points so that its
 /// coordinate is the scenario's.
 Vec3 anchorIn(const Link& link, const scenario::Joint& joint);

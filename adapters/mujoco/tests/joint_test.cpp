@@ -102,11 +102,11 @@ TEST(MujocoJoints, AFourBarLinkageStaysClosed) {
 TEST(MujocoJoints, ALoopThatNoEqualityHoldsIsRefusedByName) {
     Scenario s = scene();
     const int a = addFree(s, {0, 0, 0}), b = addFree(s, {1, 0, 0});
-    s.joints.push_back(jointOf(JointType::Hinge, scenario::kNone, a, {}, {}));
-    s.joints.push_back(jointOf(JointType::Hinge, a, b, {1, 0, 0}, {}));
-    Joint slider = jointOf(JointType::Slider, scenario::kNone, b, {1, 0, 0}, {});
-    slider.axisA = slider.axisB = {1, 0, 0};
-    s.joints.push_back(slider);
+    for (const auto& [from, to] : {std::pair{scenario::kNone, a}, {a, b}, {b, a}}) {
+        Joint slider = jointOf(JointType::Slider, from, to, {}, {});
+        slider.axisA = slider.axisB = {1, 0, 0};
+        s.joints.push_back(slider);
+    }
     try {
         Simulation simulation(s, kStep);
         ADD_FAILURE() << "built";
@@ -114,6 +114,29 @@ TEST(MujocoJoints, ALoopThatNoEqualityHoldsIsRefusedByName) {
         EXPECT_NE(std::string(refused.what()).find("slider"), std::string::npos) << refused.what();
         EXPECT_NE(std::string(refused.what()).find("loop"), std::string::npos) << refused.what();
     }
+}
+
+/// A hinge that closes a loop is one of the tree where a slider would have to close it otherwise.
+TEST(MujocoJoints, WhatCanNotCloseALoopIsOfTheTree) {
+    Scenario s = scene();
+    const int crank = addFree(s, {0.25, 0, 0}), rod = addFree(s, {1, 0, 0}), piston = addFree(s, {1.5, 0, 0});
+    const auto add = [&](JointType type, int a, int b, const Vec3& anchorA, const Vec3& anchorB,
+                         const Vec3& axis) {
+        Joint joint = jointOf(type, a, b, anchorA, anchorB);
+        joint.axisA = joint.axisB = axis;
+        s.joints.push_back(joint);
+    };
+    const Vec3 x{1, 0, 0}, z{0, 0, 1};
+    add(JointType::Hinge, scenario::kNone, crank, {}, {-0.25, 0, 0}, z);
+    add(JointType::Hinge, crank, rod, {0.25, 0, 0}, {-0.5, 0, 0}, z);
+    add(JointType::Hinge, rod, piston, {0.5, 0, 0}, {}, z);
+    add(JointType::Slider, scenario::kNone, piston, {1.5, 0, 0}, {}, x);
+    Simulation simulation(s, kStep);
+    simulation.steps(240);
+    const BodyState state = simulation.state(piston);
+    EXPECT_LT(std::abs(state.position.y), 1e-12) << "the slider is exact";
+    EXPECT_GT(std::abs(state.position.x - 1.5), 0.01);
+    EXPECT_LT(norm(at(simulation.state(rod), {0.5, 0, 0}) - state.position), 2e-3);
 }
 
 /// Momentum of two free bodies on a hinge drifts with Euler's step in reduced coordinates, and with its first order.

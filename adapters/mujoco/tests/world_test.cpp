@@ -83,7 +83,7 @@ TEST(MujocoWorld, HeightFieldsLieAsTheFormatSays) {
         Scenario s = scene(5.0);
         addStatic(s, field);
         const double radius = 0.01;
-        const int b = addBody(s, Sphere{radius}, {x, heightOf(field, x, z) + 0.05, z}, 1.0, even(1e3));
+        addBody(s, Sphere{radius}, {x, heightOf(field, x, z) + 0.05, z}, 1.0, even(1e3));
         Simulation simulation(s, 1.0 / 1000.0);
         for (int i = 0; i < 1000 && simulation.contacts().empty(); ++i) simulation.steps(1);
         ASSERT_FALSE(simulation.contacts().empty());
