@@ -64,7 +64,7 @@ std::vector<LedgerEntry> MujocoWorld::ledger() const {
                 "soft, as contacts are");
     }
     if (!model_.motors.empty())
-        add("motors", "speed and largest force", "velocity servo with a bounded force",
+        add("motors", "speed and largest force", "a force set at the start of each step, bounded",
             "under a load the speed lags by the load times the step over the inertia");
     add("sleeping", "off", "off");
     add("continuous_collision", "off", "off");

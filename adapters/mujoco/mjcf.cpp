@@ -42,6 +42,7 @@ class ModelWriter {
         std::string world;
         for (const int body : model_.forest.order)
             if (model_.forest.links[body].parent == kNone) writeBody(body, world);
+        world += planes_;
         writeTendons(world);
         writeLoops();
         std::string pairs = explicitPairs();
@@ -69,7 +70,7 @@ class ModelWriter {
                attribute("condim", std::to_string(s.dimension())) +
                attribute("friction", exact(s.friction) + " " + exact(s.torsional) + " " + exact(s.rolling)) +
                softnessText(s.softness(settings_.softness, settings_.bounceFrequency)) + "/><equality" +
-               softnessText(settings_.softness) + "/></default>";
+               softnessText(settings_.rigid) + "/></default>";
     }
 
     Surface surface(int materialA, int materialB) const {
@@ -147,7 +148,11 @@ class ModelWriter {
                 writeJoint(link, out);
         }
         if (body.collides)
-            for (std::size_t i = 0; i < body.shapes.size(); ++i) writeGeom(index, static_cast<int>(i), out);
+            for (std::size_t i = 0; i < body.shapes.size(); ++i) {
+                // Two bodies with planes overflow MuJoCo's broad phase; planes of the world do not.
+                const bool plane = std::holds_alternative<scenario::HalfSpace>(body.shapes[i].geometry);
+                writeGeom(index, static_cast<int>(i), plane ? link.rest : Pose{}, plane ? planes_ : out);
+            }
         for (std::size_t j = 0; j < scenario_.joints.size(); ++j) {
             const Joint& joint = scenario_.joints[j];
             if (joint.type != JointType::Distance) continue;
@@ -224,17 +229,16 @@ class ModelWriter {
                    attribute("springref", exact(use.target));
         out += "/>";
         if (!use.hasMotor()) return;
-        model_.motors.push_back({index, static_cast<int>(model_.motors.size()), 0, use.motorSpeed});
-        const std::string bound = exact(use.motorMaxForce);
-        actuators_ += "<general" + attribute("name", name) + attribute("joint", name) +
-                      " gaintype=\"fixed\" biastype=\"affine\" forcelimited=\"true\"" +
-                      attribute("forcerange", "-" + bound + " " + bound) + "/>";
+        model_.motors.push_back(
+            {index, static_cast<int>(model_.motors.size()), 0, use.motorSpeed, use.motorMaxForce});
+        actuators_ += "<motor" + attribute("name", name) + attribute("joint", name) + "/>";
     }
 
-    void writeGeom(int body, int shape, std::string& out) {
+    /// `place` is the pose of the body's frame in that of the element that the geom is written into.
+    void writeGeom(int body, int shape, const Pose& place, std::string& out) {
         const auto& source = scenario_.bodies[body].shapes[shape];
         const GeomText geom = geomText(source.geometry, geomName(body, shape));
-        const Pose pose = inverse(model_.forest.links[body].frame) * source.pose * geom.frame;
+        const Pose pose = place * inverse(model_.forest.links[body].frame) * source.pose * geom.frame;
         out += "<geom" + attribute("name", geomName(body, shape)) + " " + geom.attributes + poseText(pose) +
                "/>";
         assets_ += geom.asset;
@@ -252,7 +256,7 @@ class ModelWriter {
                 tendons_ += " limited=\"true\"" +
                             attribute("range", exact(std::max(axis.lower, 0.0)) + " " +
                                                    exact(std::min(axis.upper, 1e6))) +
-                            softnessText(settings_.softness, "solreflimit", "solimplimit");
+                            softnessText(settings_.rigid, "solreflimit", "solimplimit");
             if (axis.hasSpring())
                 tendons_ += attribute("stiffness", exact(axis.stiffness)) +
                             attribute("damping", exact(axis.damping)) +
@@ -306,7 +310,7 @@ class ModelWriter {
     double dt_;
     const ModelSettings& settings_;
     Model& model_;
-    std::string assets_, tendons_, equalities_, actuators_;
+    std::string assets_, planes_, tendons_, equalities_, actuators_;
 };
 
 }  // namespace

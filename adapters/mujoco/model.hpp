@@ -20,15 +20,17 @@ struct ModelSettings {
     double tolerance = 1e-8, impratio = 1.0;
     bool warmStart = true, safeReference = true, restitution = true;
     double bounceFrequency = 1.0;  ///< of contacts with restitution [rad/s]
-    Softness softness;
+    Softness softness;             ///< of contacts and of stops of joints
+    Softness rigid;                ///< of equalities and of bounds of distances
 };
 
-/// A motor of a joint coordinate: a velocity servo whose force is bounded.
+/// A motor of a joint coordinate: an actuator whose force the adapter sets at the start of each step.
 struct Motor {
     int joint = kNone;  ///< scenario joint
     int actuator = 0;   ///< index in the model
     int dof = 0;
-    double speed = 0.0;  ///< [u/s]
+    double speed = 0.0;     ///< [u/s]
+    double maxForce = 0.0;  ///< [N] or [N m]
 };
 
 struct Model {

@@ -68,6 +68,10 @@ ModelSettings MujocoWorld::modelSettings() const {
     const double time = number("solref_time");
     s.softness = {{time > 0.0 ? time : 2.0 * dt_, number("solref_damping")},
                   {number("solimp_min"), number("solimp_max"), 0.001, 0.5, 2.0}};
+    // Equalities leave out how fast their rows turn: what swings on one strays by v^2 / (l k), so they are critically
+    // damped, which is stiffest for a time constant.
+    s.rigid = s.softness;
+    s.rigid.solref[1] = std::min(s.rigid.solref[1], 1.0);
     return s;
 }
 
@@ -120,10 +124,11 @@ void MujocoWorld::prepareForces() {
     }
 }
 
-/// A motor without load reaches its speed in a step that its torque allows: the gain is the effective inertia of its
-/// coordinate over the step.
+/// A motor without load reaches its speed in a step that its force allows: the force is the effective inertia of its
+/// coordinate times the missing speed over the step, within its bound. MuJoCo's own velocity servo does the same, but
+/// its implicit integrator counts a servo's damping where its force is bounded, too, and halves the acceleration.
 void MujocoWorld::setMotors() {
-    mjModel& model = *model_.model;
+    const mjModel& model = *model_.model;
     mj_crb(&model, data_.get());
     mj_factorM(&model, data_.get());
     std::vector<mjtNum> unit(model.nv), answer(model.nv);
@@ -131,10 +136,8 @@ void MujocoWorld::setMotors() {
         std::fill(unit.begin(), unit.end(), 0.0);
         unit[motor.dof] = 1.0;
         mj_solveM(&model, data_.get(), answer.data(), unit.data(), 1);
-        const double gain = 1.0 / (answer[motor.dof] * dt_);
-        model.actuator_gainprm[mjNGAIN * motor.actuator] = gain;
-        model.actuator_biasprm[mjNBIAS * motor.actuator + 2] = -gain;
-        data_->ctrl[motor.actuator] = motor.speed;
+        const double wanted = (motor.speed - data_->qvel[motor.dof]) / (answer[motor.dof] * dt_);
+        data_->ctrl[motor.actuator] = std::clamp(wanted, -motor.maxForce, motor.maxForce);
     }
 }
 

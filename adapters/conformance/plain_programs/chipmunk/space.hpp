@@ -38,15 +38,16 @@ inline cpSpace* earth() {
     return space;
 }
 
-/// A box of these sides on a body of its own, with this friction and elasticity.
+/// A box of these sides on a body of its own. The velocity is set before the shape is added: a tree's boxes reach ahead
+/// with it, and which of two corners that just touch comes first is decided there.
 inline cpBody* addBox(cpSpace* space, double mass, double width, double height, const cpVect& at,
-                      double friction, double elasticity = 0) {
+                      double friction, const cpVect& velocity = {0, 0}) {
     cpBody* body = mass > 0 ? cpBodyNew(mass, cpMomentForBox(mass, width, height)) : cpBodyNewStatic();
     cpBodySetPosition(body, at);
+    if (mass > 0) cpBodySetVelocity(body, velocity);
     cpSpaceAddBody(space, body);
     cpShape* shape = cpSpaceAddShape(space, cpBoxShapeNew(body, width, height, 0));
     cpShapeSetFriction(shape, friction);
-    cpShapeSetElasticity(shape, elasticity);
     return body;
 }
 

@@ -14,9 +14,9 @@ TEST(PlainChipmunk, Stack) {
             cpSpaceSetIterations(space, 100);
             cpSpaceSetCollisionSlop(space, 0.0005);
         }
-        std::vector<cpBody*> bodies{addBox(space, 0, 40, 1, cpv(0, -0.5), 0.5)};
+        std::vector<cpBody*> bodies{addBox(space, 0, 40, 1, cpv(0, -0.5), std::sqrt(0.5))};
         for (int i = 0; i < 10; ++i)
-            bodies.push_back(addBox(space, 1, 1, 1, cpv(0, 0.49999 + i * 0.99999), 1));
+            bodies.push_back(addBox(space, 1, 1, 1, cpv(0, 0.49999 + i * 0.99999), std::sqrt(0.5)));
         const Trajectory plain = run(space, bodies, 1.0 / 60, 180);
         EXPECT_GT(travel(plain, 10), fine ? 1e-4 : 0.01);
         const Scenario scene = load("scenarios/library/2d/box_stack_2d.json");
@@ -30,8 +30,7 @@ TEST(PlainChipmunk, Stack) {
 TEST(PlainChipmunk, Slide) {
     cpSpace* space = earth();
     std::vector<cpBody*> bodies{addBox(space, 0, 40, 1, cpv(0, -0.5), std::sqrt(0.4 * 0.6)),
-                                addBox(space, 2, 0.5, 0.1, cpv(0, 0.05), 1)};
-    cpBodySetVelocity(bodies[1], cpv(-4, 0));
+                                addBox(space, 2, 0.5, 0.1, cpv(0, 0.05), 1, cpv(-4, 0))};
     const Trajectory plain = run(space, bodies, 1.0 / 60, 90);
     EXPECT_GT(travel(plain, 1), 1.5);
     const Scenario scene = load("scenarios/library/2d/slide_and_stop_2d.json");
