@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -35,7 +36,10 @@ void limitChild(pid_t parent) {
     if (getppid() != parent) _exit(kInternal);
     const struct rlimit none {};
     setrlimit(RLIMIT_CORE, &none);
-    const struct rlimit memory { kMemoryMiB << 20, kMemoryMiB << 20 };
+    // The hard limit stays: a guest's own process may need addresses that it does not use.
+    struct rlimit memory {};
+    getrlimit(RLIMIT_AS, &memory);
+    memory.rlim_cur = std::min<rlim_t>(kMemoryMiB << 20, memory.rlim_max);
     if (!validation::isSanitized()) setrlimit(RLIMIT_AS, &memory);
 }
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <sys/mman.h>
 
 #include <filesystem>
 #include <fstream>
@@ -70,6 +71,26 @@ TEST_F(GuestCommands, ANewEngineOfEveryGuestLanguageConforms) {
         EXPECT_THAT(validated.out, HasSubstr("\"outcome\": \"completed\""));
         EXPECT_THAT(validated.out, HasSubstr("\"verdict\": \"pass\""));
     }
+}
+
+TEST_F(GuestCommands, RunLetsAGuestOfResidentMemoryHaveItsAddresses) {
+    write("mine", "python");
+    const fs::path program = folder_ / "mine/mine.py", manifest = folder_ / "mine/rigor_adapter_mine.json";
+    const auto textOf = [](const fs::path& file) {
+        std::ifstream in(file);
+        return std::string{std::istreambuf_iterator<char>(in), {}};
+    };
+    const std::string first = textOf(program), described = textOf(manifest);
+    // It reserves 8 GiB of addresses, which it does not use.
+    const int privateUnreserved = MAP_PRIVATE | MAP_NORESERVE;
+    std::ofstream(program) << "import mmap\nreserved = mmap.mmap(-1, 8 << 30, flags=" << privateUnreserved
+                           << ")\n"
+                           << first;
+    std::ofstream(manifest) << described.substr(0, described.rfind('}')) << ", \"memory\": \"resident\"}";
+    const fs::path scene = folder_ / "flight.json";
+    std::ofstream(scene) << kFlight;
+    const auto run = rigor("run " + scene.string() + " --engine mine");
+    EXPECT_EQ(run.code, 0) << run.out;
 }
 
 TEST_F(GuestCommands, ConformSaysWhatFails) {
