@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import * as rg from '../../sdk/rigor_guest.mjs';
-import { J } from './library.mjs';
+import { openAxes } from '../shared/six_dof.mjs';
+import { J, withVec3 } from './library.mjs';
 
 function set(target, [x, y, z]) {
     target.Set(x, y, z);
@@ -34,6 +35,31 @@ const makers = {
         for (const vector of [settings.mNormalAxis1, settings.mNormalAxis2]) set(vector, normalTo(axis));
         return settings;
     },
+    cone_twist: (joint, axis) => {
+        const settings = new J.SwingTwistConstraintSettings();
+        for (const vector of [settings.mTwistAxis1, settings.mTwistAxis2]) set(vector, axis);
+        for (const vector of [settings.mPlaneAxis1, settings.mPlaneAxis2]) set(vector, normalTo(axis));
+        const [twist, swing] = ['twist', 'swing'].map((name) => joint.axes.find((given) => given.name === name));
+        for (const given of [twist, swing]) if (given) refuseDrives(joint, given);
+        const bound = (given, value) => (given === undefined || given.mode === 'free' ? Math.PI : (value ?? Math.PI));
+        const isLocked = (given) => given?.mode === 'locked';
+        const cone = isLocked(swing) ? 0 : bound(swing, swing?.upper);
+        settings.mNormalHalfConeAngle = settings.mPlaneHalfConeAngle = cone;
+        settings.mTwistMinAngle = isLocked(twist) ? 0 : -bound(twist, twist?.lower === null ? null : -twist?.lower);
+        settings.mTwistMaxAngle = isLocked(twist) ? 0 : bound(twist, twist?.upper);
+        return settings;
+    },
+    six_dof: (joint, axis, normal) => {
+        const settings = new J.SixDOFConstraintSettings();
+        for (const vector of [settings.mAxisX1, settings.mAxisX2]) set(vector, axis);
+        for (const vector of [settings.mAxisY1, settings.mAxisY2]) set(vector, normal);
+        openAxes(joint).forEach((given, k) => {
+            if (given === null) settings.MakeFixedAxis(k);
+            else if (given.mode === 'free') settings.MakeFreeAxis(k);
+            else settings.SetLimitedAxis(k, given.lower ?? -1e9, given.upper ?? 1e9);
+        });
+        return settings;
+    },
     distance: (joint) => {
         const settings = new J.DistanceConstraintSettings();
         const [axis] = joint.axes;
@@ -50,6 +76,11 @@ const makers = {
         return settings;
     },
 };
+
+function refuseDrives(joint, axis) {
+    if (axis.stiffness > 0 || axis.damping > 0 || axis.motor_max_force > 0)
+        throw new rg.Unsupported(`motors and springs of a ${joint.type}`, '', `joint '${joint.name}'`);
+}
 
 function limit(settings, joint, axis) {
     if (axis.mode === 'locked')
@@ -87,19 +118,50 @@ function drive(created, joint, axis) {
     }
 }
 
+/** Motors and springs of six coordinates: one kind of each for every axis, with targets as vectors. */
+function driveSix(created, joint) {
+    const constraint = J.castObject(created, J.SixDOFConstraint);
+    const [speeds, targets] = [new Array(6).fill(0), new Array(6).fill(0)];
+    openAxes(joint).forEach((axis, k) => {
+        if (axis === null) return;
+        const hasSpring = axis.stiffness > 0 || axis.damping > 0;
+        if (axis.motor_max_force > 0 && hasSpring)
+            throw new rg.Unsupported('motor and spring of one coordinate', '', `joint '${joint.name}'`);
+        if (hasSpring && k >= 3) throw new rg.Unsupported('springs of angles of a six_dof', '', `joint '${joint.name}'`);
+        const motor = constraint.GetMotorSettings(k);
+        if (axis.motor_max_force > 0) {
+            const most = axis.motor_max_force;
+            Object.assign(motor, { mMinForceLimit: -most, mMaxForceLimit: most, mMinTorqueLimit: -most, mMaxTorqueLimit: most });
+            constraint.SetMotorState(k, J.EMotorState_Velocity);
+            speeds[k] = axis.motor_speed;
+        }
+        if (hasSpring) {
+            spring(motor.mSpringSettings, axis.stiffness, axis.damping);
+            constraint.SetMotorState(k, J.EMotorState_Position);
+            targets[k] = axis.target;
+        }
+    });
+    withVec3(speeds.slice(0, 3), (v) => constraint.SetTargetVelocityCS(v));
+    withVec3(speeds.slice(3), (w) => constraint.SetTargetAngularVelocityCS(w));
+    withVec3(targets.slice(0, 3), (p) => constraint.SetTargetPositionCS(p));
+}
+
 /** Adds a joint. `poseA`: of the scenario's body A at the start; anchors and axes are given in the world. */
 export function addJoint(system, joint, bodyA, bodyB, poseA, poseB) {
     const anchorOf = (pose, anchor) => rg.sum(pose.position, rg.rotate(pose.orientation, anchor));
     const axis = rg.rotate(poseA.orientation, joint.axis_a);
-    const settings = makers[joint.type](joint, axis);
+    const normal = joint.normal_a && rg.rotate(poseA.orientation, joint.normal_a);
+    const settings = makers[joint.type](joint, axis, normal);
     settings.mSpace = J.EConstraintSpace_WorldSpace;
-    set(settings.mPoint1, anchorOf(poseA, joint.anchor_a));
-    set(settings.mPoint2, anchorOf(poseB, joint.anchor_b));
+    const placed = joint.type === 'six_dof' || joint.type === 'cone_twist' ? 'mPosition' : 'mPoint';
+    set(settings[`${placed}1`], anchorOf(poseA, joint.anchor_a));
+    set(settings[`${placed}2`], anchorOf(poseB, joint.anchor_b));
     if (joint.type === 'fixed') settings.mAutoDetectPoint = false;
     const driven = joint.type === 'hinge' || joint.type === 'slider';
     if (driven) limit(settings, joint, joint.axes[0] ?? { mode: 'free' });
     const created = settings.Create(bodyA, bodyB);
     J.destroy(settings);
     if (driven && joint.axes[0]) drive(created, joint, joint.axes[0]);
+    if (joint.type === 'six_dof') driveSix(created, joint);
     system.AddConstraint(created);
 }

@@ -9,12 +9,17 @@ import { JoltWorld } from './world.mjs';
 const joints = ['ball', 'fixed', 'distance', 'distance.limit', 'distance.spring'];
 for (const type of ['hinge', 'slider']) joints.push(type, ...['limit', 'motor', 'spring'].map((f) => `${type}.${f}`));
 
+joints.push('cone_twist', 'cone_twist.limit', 'six_dof', 'six_dof.limit', 'six_dof.motor', 'six_dof.spring');
+
 const oneCoefficient = 'types.d.ts, class ContactSettings: mCombinedFriction is the one coefficient of a contact';
 const capabilities = {
     dynamics: true,
     dimensions: [3],
     planar: true,
-    shapes: ['sphere', 'box', 'capsule', 'cylinder', 'hull', 'half_space', 'circle', 'polygon', 'half_plane'],
+    shapes: [
+        ...['sphere', 'box', 'capsule', 'cylinder', 'hull', 'half_space', 'triangle_mesh', 'height_field'],
+        ...['circle', 'polygon', 'half_plane'],
+    ],
     joints,
     kinematic_bodies: true,
     damping: true,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import * as rg from '../../sdk/rigor_guest.mjs';
-import { J, vector, withQuat, withVec3 } from './library.mjs';
+import { surfaceOf } from '../shared/height_field.mjs';
+import { J, using, vector, withQuat, withVec3 } from './library.mjs';
 
 /** Planes are cut off here [m]. */
 const kPlaneHalfExtent = 1e4;
@@ -13,6 +14,21 @@ function hullOf(vertices, radius) {
     return settings;
 }
 
+/** Triangles of a mesh have one side: each of them twice, once for either. */
+function meshOf({ vertices, triangles }) {
+    const list = new J.TriangleList();
+    const points = vertices.map((v) => new J.Vec3(...v));
+    const add = (a, b, c) => using(new J.Triangle(points[a], points[b], points[c]), (triangle) => list.push_back(triangle));
+    for (const [a, b, c] of triangles) {
+        add(a, b, c);
+        add(c, b, a);
+    }
+    const settings = new J.MeshShapeSettings(list);
+    for (const point of points) J.destroy(point);
+    J.destroy(list);
+    return settings;
+}
+
 const builders = {
     sphere: (s) => new J.SphereShapeSettings(s.radius),
     box: (s, radius) =>
@@ -21,6 +37,8 @@ const builders = {
     cylinder: (s, radius) =>
         new J.CylinderShapeSettings(s.half_length, s.radius, Math.min(radius, s.half_length, s.radius)),
     hull: (s, radius) => hullOf(s.vertices, radius),
+    triangle_mesh: meshOf,
+    height_field: (s) => meshOf(surfaceOf(s)),
     half_space: (s) =>
         withVec3(s.normal, (normal) => {
             const plane = new J.Plane(normal, -s.offset);

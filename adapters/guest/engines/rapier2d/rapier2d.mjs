@@ -9,7 +9,7 @@ import { space } from './space.mjs';
 await RAPIER.init();
 
 serveRapier(space, 2, {
-    shapes: ['circle', 'box', 'capsule', 'polygon', 'half_plane', 'segment'],
+    shapes: ['circle', 'box', 'capsule', 'polygon', 'half_plane', 'segment', 'chain'],
     joints: [],
     lacks: { '3D': 'README.md of @dimforge/rapier2d-compat: 3D is another package, rapier3d' },
 });

@@ -48,6 +48,12 @@ export const space = {
             desc: RAPIER.ColliderDesc.convexHull(new Float32Array(s.vertices.flatMap(([x, y]) => [x, y]))),
         }),
         segment: (s) => ({ desc: RAPIER.ColliderDesc.segment(toRapier(s.a), toRapier(s.b)) }),
+        chain: (s) => {
+            const points = new Float32Array(s.vertices.flatMap(([x, y]) => [x, y]));
+            const pairs = s.vertices.slice(1).flatMap((_, k) => [k, k + 1]);
+            if (s.loop) pairs.push(s.vertices.length - 1, 0);
+            return { desc: RAPIER.ColliderDesc.polyline(points, new Uint32Array(pairs)) };
+        },
         // Its surface contains the origin of the collider.
         half_plane: (s) => ({
             desc: new RAPIER.ColliderDesc(new RAPIER.HalfSpace(toRapier(s.normal))),

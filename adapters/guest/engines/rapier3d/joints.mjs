@@ -2,14 +2,17 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import RAPIER from '@dimforge/rapier3d-compat';
 import * as rg from '../../sdk/rigor_guest.mjs';
-import { drive } from '../shared/rapier_joints.mjs';
+import { drive, driveAxis } from '../shared/rapier_joints.mjs';
+import { openAxes } from '../shared/six_dof.mjs';
 import { quatToRapier, toRapier } from './vectors.mjs';
 
-/** The rotation that takes x to the unit vector `axis`, and y to whichever normal of it. */
-function frameAlong(axis) {
-    const other = Math.abs(axis[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0];
-    let y = rg.cross(axis, other);
-    y = rg.scaled(1 / rg.norm(y), y);
+function anyNormal(axis) {
+    const normal = rg.cross(axis, Math.abs(axis[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0]);
+    return rg.scaled(1 / rg.norm(normal), normal);
+}
+
+/** The rotation that takes x to the unit vector `axis`, and y to its normal `y`, by default whichever. */
+function frameAlong(axis, y = anyNormal(axis)) {
     const z = rg.cross(axis, y);
     // Quaternion of the matrix with the columns axis, y, z; the largest of its components first.
     const m = [axis, y, z];
@@ -39,16 +42,25 @@ const data = {
     fixed: () => RAPIER.JointData.fixed(origin, identity, origin, identity),
     hinge: () => RAPIER.JointData.revolute(origin, origin, { x: 1, y: 0, z: 0 }),
     slider: () => RAPIER.JointData.prismatic(origin, origin, { x: 1, y: 0, z: 0 }),
+    six_dof: (joint) => {
+        const locked = openAxes(joint).reduce((mask, axis, k) => (axis === null ? mask | (1 << k) : mask), 0);
+        return RAPIER.JointData.generic(origin, origin, { x: 1, y: 0, z: 0 }, locked);
+    },
 };
 
 /** Adds a joint. A side is a body of Rapier and the pose of the scenario's at the start. */
 export function addJoint(world, joint, a, b) {
-    const created = world.createImpulseJoint(data[joint.type](), a.body, b.body, true);
+    const created = world.createImpulseJoint(data[joint.type](joint), a.body, b.body, true);
     // One frame in the world, seen from both bodies.
-    const inWorld = rg.quaternionProduct(a.pose.orientation, frameAlong(joint.axis_a));
+    const normal = joint.type === 'six_dof' ? joint.normal_a : undefined;
+    const inWorld = rg.quaternionProduct(a.pose.orientation, frameAlong(joint.axis_a, normal));
     const frameIn = ({ pose }) => quatToRapier(rg.quaternionProduct(rg.conjugate(pose.orientation), inWorld));
     created.setLocalFrame1(toRapier(joint.anchor_a), frameIn(a));
     created.setLocalFrame2(toRapier(joint.anchor_b), frameIn(b));
     created.setContactsEnabled(joint.collide_connected);
     drive(RAPIER, created, joint);
+    if (joint.type === 'six_dof')
+        openAxes(joint).forEach((axis, k) => {
+            if (axis !== null) driveAxis(RAPIER, created, k, axis, joint);
+        });
 }

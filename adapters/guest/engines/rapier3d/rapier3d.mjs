@@ -9,8 +9,8 @@ import { space } from './space.mjs';
 await RAPIER.init();
 
 serveRapier(space, 3, {
-    shapes: ['sphere', 'box', 'capsule', 'cylinder', 'cone', 'hull', 'half_space'],
-    joints: ['ball'],
+    shapes: ['sphere', 'box', 'capsule', 'cylinder', 'cone', 'hull', 'half_space', 'triangle_mesh', 'height_field'],
+    joints: ['ball', 'six_dof', 'six_dof.limit', 'six_dof.motor', 'six_dof.spring'],
     lacks: {
         '2D': 'README.md of @dimforge/rapier3d-compat: 2D is another package, rapier2d',
         ellipsoid: 'geometry/shape.d.ts, enum ShapeType: none is an ellipsoid',
