@@ -9,8 +9,11 @@ import { Box2dWorld } from './world.mjs';
 const capabilities = {
     dynamics: true,
     dimensions: [2],
-    shapes: ['circle', 'box', 'capsule', 'polygon', 'half_plane', 'segment'],
-    joints: ['hinge', 'hinge.limit', 'hinge.motor', 'slider', 'slider.limit', 'slider.motor', 'fixed', 'distance', 'distance.limit'],
+    shapes: ['circle', 'box', 'capsule', 'polygon', 'half_plane', 'segment', 'chain'],
+    joints: [
+        ...['hinge', 'hinge.limit', 'hinge.motor', 'hinge.spring', 'slider', 'slider.limit', 'slider.motor', 'slider.spring'],
+        ...['fixed', 'distance', 'distance.limit', 'distance.spring', 'wheel', 'wheel.limit', 'wheel.motor', 'wheel.spring'],
+    ],
     kinematic_bodies: true,
     damping: true,
     gravity_scale: true,

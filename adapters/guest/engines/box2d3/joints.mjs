@@ -18,16 +18,35 @@ function setFrame(base, key, anchor, angle) {
     frame.delete();
 }
 
-function refuseSprings(joint, axis) {
-    if (axis.stiffness > 0 || axis.damping > 0)
-        throw new rg.Unsupported(`spring of a ${joint.type}`, '', `joint '${joint.name}'`);
+/** Inverse mass of a body against an impulse of direction `n` at `arm` from its centre, or against a turn (no direction). */
+function inverseMass(body, n, arm) {
+    if (body?.type !== 'dynamic') return 0;
+    if (!n) return 1 / body.inertia[8];
+    return 1 / body.mass + (arm[0] * n[1] - arm[1] * n[0]) ** 2 / body.inertia[8];
+}
+
+/**
+ * Springs of the library have a frequency and a damping ratio on the mass of their coordinate: those that give stiffness
+ * and damping at the start. The mass of an angle is constant.
+ */
+function springOf(axis, sides, joint, n) {
+    if (!(axis.stiffness > 0 || axis.damping > 0)) return {};
+    if (axis.stiffness === 0) throw new rg.Unsupported(`damper of a ${joint.type}`, '', `joint '${joint.name}'`);
+    const mass = 1 / sides.reduce((sum, { body, arm }) => sum + inverseMass(body, n, arm), 0);
+    const rate = Math.sqrt(axis.stiffness / mass);
+    return { enableSpring: true, hertz: rate / (2 * Math.PI), dampingRatio: axis.damping / (2 * mass * rate) };
+}
+
+/** The library's wheels have no target of their spring: A's anchor is moved by it along the axis. */
+function wheelTarget(joint) {
+    return joint.type === 'wheel' ? (joint.axes.find(({ name }) => name === 'travel')?.target ?? 0) : 0;
 }
 
 const kinds = {
     hinge: {
         def: () => B.b2DefaultRevoluteJointDef(),
         create: (world, def) => B.b2CreateRevoluteJoint(world, def),
-        set(def, axis, joint) {
+        set(def, axis, joint, sides) {
             if (axis.mode === 'limited') {
                 const [lower, upper] = [axis.lower ?? -kMostAngle, axis.upper ?? kMostAngle];
                 if (lower < -kMostAngle || upper > kMostAngle || axis.lower === null || axis.upper === null)
@@ -36,12 +55,14 @@ const kinds = {
             }
             if (axis.motor_max_force > 0)
                 Object.assign(def, { enableMotor: true, motorSpeed: axis.motor_speed, maxMotorTorque: axis.motor_max_force });
+            Object.assign(def, springOf(axis, sides, joint));
+            def.targetAngle = axis.target ?? 0;
         },
     },
     slider: {
         def: () => B.b2DefaultPrismaticJointDef(),
         create: (world, def) => B.b2CreatePrismaticJoint(world, def),
-        set(def, axis) {
+        set(def, axis, joint, sides, along) {
             if (axis.mode === 'limited')
                 Object.assign(def, {
                     enableLimit: true,
@@ -50,14 +71,41 @@ const kinds = {
                 });
             if (axis.motor_max_force > 0)
                 Object.assign(def, { enableMotor: true, motorSpeed: axis.motor_speed, maxMotorForce: axis.motor_max_force });
+            Object.assign(def, springOf(axis, sides, joint, along));
+            def.targetTranslation = axis.target ?? 0;
+        },
+    },
+    wheel: {
+        def: () => B.b2DefaultWheelJointDef(),
+        create: (world, def) => B.b2CreateWheelJoint(world, def),
+        set(def, _first, joint, sides, along) {
+            const [travel, angle] = ['travel', 'angle'].map((name) => joint.axes.find((given) => given.name === name));
+            def.enableSpring = false;
+            if (travel?.mode === 'locked' || angle?.mode === 'locked' || angle?.mode === 'limited' || travel?.motor_max_force > 0)
+                throw new rg.Unsupported('such a wheel', '', `joint '${joint.name}'`);
+            if (travel) Object.assign(def, springOf(travel, sides, joint, along));
+            if (travel?.mode === 'limited')
+                Object.assign(def, {
+                    enableLimit: true,
+                    lowerTranslation: (travel.lower ?? -1e5) - wheelTarget(joint),
+                    upperTranslation: (travel.upper ?? 1e5) - wheelTarget(joint),
+                });
+            if (angle?.motor_max_force > 0)
+                Object.assign(def, { enableMotor: true, motorSpeed: angle.motor_speed, maxMotorTorque: angle.motor_max_force });
         },
     },
     fixed: { def: () => B.b2DefaultWeldJointDef(), create: (world, def) => B.b2CreateWeldJoint(world, def), set() {} },
     distance: {
         def: () => B.b2DefaultDistanceJointDef(),
         create: (world, def) => B.b2CreateDistanceJoint(world, def),
-        set(def, axis, joint) {
-            def.length = joint.length;
+        set(def, axis, joint, sides, along) {
+            const spring = springOf(axis, sides, joint, along);
+            def.length = spring.enableSpring ? axis.target : joint.length;
+            if (spring.enableSpring && axis.mode !== 'limited') {
+                Object.assign(def, spring);
+                return;
+            }
+            if (spring.enableSpring) throw new rg.Unsupported('limits and spring of one distance', '', `joint '${joint.name}'`);
             if (axis.mode === 'locked') return;
             if (axis.mode === 'free') throw new rg.Unsupported('a distance that is free', '', `joint '${joint.name}'`);
             // A rod whose spring has no stiffness is held by its limits alone.
@@ -68,25 +116,38 @@ const kinds = {
     },
 };
 
+/** Direction of a joint's coordinate in the world: its axis, or the line of its anchors. */
+function directionOf(joint, poseA, poseB) {
+    if (joint.type !== 'distance') return rg.rotate(poseA.orientation, joint.axis_a);
+    const anchorOf = ({ position, orientation }, anchor) => rg.sum(position, rg.rotate(orientation, anchor));
+    const line = rg.difference(anchorOf(poseB, joint.anchor_b), anchorOf(poseA, joint.anchor_a));
+    return rg.scaled(1 / Math.max(rg.norm(line), 1e-12), line);
+}
+
 /** Adds a joint between two bodies of these poses at the start. */
-export function addJoint(world, joint, bodyA, bodyB, poseA, poseB) {
+export function addJoint(world, scenario, joint, bodyA, bodyB, poseA, poseB) {
     const kind = kinds[joint.type];
     const [axis] = joint.axes;
-    const driven = axis && (axis.mode !== 'free' || axis.motor_max_force > 0 || axis.stiffness > 0 || axis.damping > 0);
-    if (driven) refuseSprings(joint, axis);
     if ((joint.type === 'hinge' || joint.type === 'slider') && axis?.mode === 'locked')
         throw new rg.Unsupported(`a ${joint.type} whose coordinate is locked`, '', `joint '${joint.name}'`);
     const def = kind.def();
-    const along = rg.rotate(poseA.orientation, joint.axis_a);
-    const angle = joint.type === 'slider' ? Math.atan2(along[1], along[0]) : 0;
+    const along = directionOf(joint, poseA, poseB);
+    const turned = joint.type === 'slider' || joint.type === 'wheel';
+    const angle = turned ? Math.atan2(along[1], along[0]) : 0;
     const base = def.base;
     base.bodyIdA = bodyA;
     base.bodyIdB = bodyB;
     base.collideConnected = joint.collide_connected;
-    setFrame(base, 'localFrameA', joint.anchor_a, angle - angleOf(poseA.orientation));
+    const anchorA = rg.sum(joint.anchor_a, rg.scaled(wheelTarget(joint), joint.axis_a ?? [0, 0, 0]));
+    setFrame(base, 'localFrameA', anchorA, angle - angleOf(poseA.orientation));
     setFrame(base, 'localFrameB', joint.anchor_b, angle - angleOf(poseB.orientation));
     def.base = base;
-    if (axis) kind.set(def, axis, joint);
+    const sideOf = (index, pose, anchor) => {
+        const body = scenario.bodies[index];
+        return { body, arm: body ? rg.rotate(pose.orientation, rg.difference(anchor, body.center_of_mass)) : [0, 0, 0] };
+    };
+    const sides = [sideOf(joint.body_a, poseA, joint.anchor_a), sideOf(joint.body_b, poseB, joint.anchor_b)];
+    if (axis) kind.set(def, axis, joint, sides, along);
     const created = kind.create(world, def);
     def.delete();
     return created;

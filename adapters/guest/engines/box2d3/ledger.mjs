@@ -46,5 +46,10 @@ export function ledgerOf({ scenario, settings, substeps, reach }) {
         lines.push(
             rg.approximate('half_plane', 'unbounded', `a box of side ${2 * reach} m`, 'the library has no half-plane'),
         );
+    const springs = scenario.joints.some(({ type, axes }) => type !== 'hinge' && axes.some((axis) => axis.stiffness > 0));
+    if (springs)
+        lines.push(
+            rg.approximate('springs', 'of constant stiffness', 'of constant frequency', "the library's springs follow the mass of their coordinate"),
+        );
     return lines;
 }

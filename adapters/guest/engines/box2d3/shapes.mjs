@@ -28,8 +28,31 @@ const corners = ([x, y]) => [
     [-x, y, 0],
 ];
 
-/** Adds a shape to a body. */
-export function addShape(body, shape, def, reach, user) {
+function segmentFrom(body, def, a, b) {
+    const segment = new B.b2Segment();
+    withVec2(a, (p) => {
+        segment.point1 = p;
+    });
+    withVec2(b, (p) => {
+        segment.point2 = p;
+    });
+    return B.b2CreateSegmentShape(body, def, segment);
+}
+
+/** Segments of a chain, which has two sides; the library's own chain has one. */
+function chainSegments({ vertices, loop }) {
+    const pairs = vertices.slice(1).map((v, k) => [vertices[k], v]);
+    return loop ? [...pairs, [vertices.at(-1), vertices[0]]] : pairs;
+}
+
+/** Adds a shape to a body: ids of the library's shapes. */
+export function addShapes(body, shape, def, reach, user) {
+    if (shape.shape !== 'chain') return [addShape(body, shape, def, reach, user)];
+    const place = (p) => rg.sum(shape.position, rg.rotate(shape.orientation, p));
+    return chainSegments(shape).map(([a, b]) => segmentFrom(body, def, place(a), place(b)));
+}
+
+function addShape(body, shape, def, reach, user) {
     const place = (p) => rg.sum(shape.position, rg.rotate(shape.orientation, p));
     const polygon = (points) => {
         const made = polygonOf(points, user);
@@ -57,16 +80,8 @@ export function addShape(body, shape, def, reach, user) {
             capsule.radius = shape.radius;
             return B.b2CreateCapsuleShape(body, def, capsule);
         }
-        case 'segment': {
-            const segment = new B.b2Segment();
-            withVec2(place(shape.a), (p) => {
-                segment.point1 = p;
-            });
-            withVec2(place(shape.b), (p) => {
-                segment.point2 = p;
-            });
-            return B.b2CreateSegmentShape(body, def, segment);
-        }
+        case 'segment':
+            return segmentFrom(body, def, place(shape.a), place(shape.b));
         case 'half_plane': {
             const center = place(rg.scaled(shape.offset - reach, shape.normal));
             const angle = angleOf(shape.orientation) + Math.atan2(shape.normal[1], shape.normal[0]);

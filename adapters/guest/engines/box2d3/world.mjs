@@ -9,7 +9,7 @@ import { reachOf } from '../shared/reach.mjs';
 import { addJoint } from './joints.mjs';
 import { ledgerOf } from './ledger.mjs';
 import { angleOf, B, quaternionOf, vector, withRot, withVec2 } from './library.mjs';
-import { addShape } from './shapes.mjs';
+import { addShapes } from './shapes.mjs';
 
 /** The library multiplies velocities by 1 / (1 + c h) in every sub-step h; c for what is kept per second. */
 const dampingFor = (kept, h) => (kept ** -h - 1) / h;
@@ -33,7 +33,7 @@ export class Box2dWorld extends rg.World {
         this.reach = reachOf(scenario);
         this.bodies = scenario.bodies.map((body, i) => this.addBody(body, i));
         const outside = () => this.stillBody();
-        addJoints(scenario, this.bodies, outside, (...joint) => addJoint(this.world, ...joint));
+        addJoints(scenario, this.bodies, outside, (...joint) => addJoint(this.world, scenario, ...joint));
     }
 
     createWorld() {
@@ -102,9 +102,9 @@ export class Box2dWorld extends rg.World {
         // The library needs a mass of the shapes for the extent by which it lets turning bodies sleep.
         def.density = 1;
         def.updateBodyMass = true;
-        const id = addShape(created, shape, def, this.reach, `body '${body.name}'`);
+        const ids = addShapes(created, shape, def, this.reach, `body '${body.name}'`);
         def.delete();
-        this.owners.set(keyOf(id), [index, k]);
+        for (const id of ids) this.owners.set(keyOf(id), [index, k]);
     }
 
     setMass(created, body) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-import { DistanceJoint, PrismaticJoint, RevoluteJoint, WeldJoint } from 'planck';
+import { DistanceJoint, PrismaticJoint, RevoluteJoint, RopeJoint, WeldJoint } from 'planck';
 import * as rg from '../../sdk/rigor_guest.mjs';
 import { angleOf, toPlanck } from './shapes.mjs';
 
@@ -43,11 +43,21 @@ export function jointOf(joint, bodyA, bodyB, poseA, poseB) {
             });
         case 'fixed':
             return new WeldJoint(keys);
-        default: {
-            const [axis] = joint.axes;
-            if (axis.mode !== 'locked' || axis.stiffness > 0 || axis.damping > 0)
-                throw new rg.Unsupported('a distance that is no rod', '', `joint '${joint.name}'`);
-            return new DistanceJoint({ ...keys, length: joint.length });
-        }
+        default:
+            return distance(joint, keys);
     }
+}
+
+/** A rod, or a rope: the library bounds a distance from above alone. */
+function distance(joint, keys) {
+    const [axis] = joint.axes;
+    const refuse = (what, documentation = '') => {
+        throw new rg.Unsupported(what, documentation, `joint '${joint.name}'`);
+    };
+    if (axis.stiffness > 0 || axis.damping > 0) refuse('spring of a distance');
+    if (axis.mode === 'locked') return new DistanceJoint({ ...keys, length: joint.length });
+    if (axis.mode === 'free') refuse('a distance that is free');
+    if (axis.lower > 0 || axis.upper === null)
+        refuse('a least distance', 'planck.d.ts, interface RopeJointOpt: maxLength alone');
+    return new RopeJoint({ ...keys, maxLength: axis.upper });
 }

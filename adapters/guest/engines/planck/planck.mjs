@@ -12,8 +12,8 @@ const { version } = JSON.parse(readFileSync(manifest));
 const capabilities = {
     dynamics: true,
     dimensions: [2],
-    shapes: ['circle', 'box', 'polygon', 'half_plane', 'segment'],
-    joints: ['hinge', 'hinge.limit', 'hinge.motor', 'slider', 'slider.limit', 'slider.motor', 'fixed', 'distance'],
+    shapes: ['circle', 'box', 'polygon', 'half_plane', 'segment', 'chain'],
+    joints: ['hinge', 'hinge.limit', 'hinge.motor', 'slider', 'slider.limit', 'slider.motor', 'fixed', 'distance', 'distance.limit'],
     contact_impulses: true,
     kinematic_bodies: true,
     damping: true,
@@ -23,6 +23,7 @@ const capabilities = {
     shape_filters: true,
     library_lacks: {
         '3D': 'README.md of planck: "2D JavaScript Physics Engine"',
+        capsule: 'planck.d.ts, classes derived from Shape: box, chain, circle, edge, polygon',
         static_friction: 'planck.d.ts, interface FixtureOpt: friction is the one coefficient',
         rolling_friction: 'planck.d.ts, interface FixtureOpt: friction is the one coefficient',
     },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-import { BoxShape, CircleShape, EdgeShape, PolygonShape, Settings } from 'planck';
+import { BoxShape, ChainShape, CircleShape, EdgeShape, PolygonShape, Settings } from 'planck';
 import * as rg from '../../sdk/rigor_guest.mjs';
 
 export const toPlanck = ([x, y]) => ({ x, y });
@@ -16,6 +16,8 @@ export function shapeOf(shape, reach, user) {
             return new BoxShape(...shape.half_extents.slice(0, 2), toPlanck(shape.position), angleOf(shape.orientation));
         case 'segment':
             return new EdgeShape(toPlanck(place(shape.a)), toPlanck(place(shape.b)));
+        case 'chain':
+            return new ChainShape(shape.vertices.map((v) => toPlanck(place(v))), shape.loop);
         case 'half_plane': {
             const center = place(rg.scaled(shape.offset - reach, shape.normal));
             const angle = angleOf(shape.orientation) + Math.atan2(shape.normal[1], shape.normal[0]);
