@@ -82,7 +82,7 @@ export class ModelText {
     geomContacts(body, shape) {
         if (!body.collides || this.frictions === null) return { contype: 0, conaffinity: 0 };
         const friction = this.frictions[shape.material];
-        const { condim, torsion, rolling, solref, solimp } = this.contactAttributes(this.common, 1);
+        const { condim, torsion, rolling, solref, solimp } = this.contactAttributes(this.common, friction);
         return { ...this.typeBits(body, shape), condim, friction: [friction, torsion, rolling], solref, solimp };
     }
 
