@@ -53,7 +53,7 @@ const options = [
     rg.number('solimp_max', 1e-4, 0.9999, 0.95, 0.999, 'greatest impedance'),
     rg.number('solimp_width', 1e-9, 1, 0.001, 0.001, 'overlap at which the impedance is greatest [m]'),
     rg.choice('native_ccd', ['on', 'off'], 'on', 'on', "on: the library's own convex collision, off: libccd"),
-    rg.choice('restitution', ['none', 'solref'], 'none', 'solref', 'solref: contacts that bounce are undamped springs of that restitution'),
+    rg.choice('restitution', ['none', 'solref'], 'solref', 'solref', 'solref: contacts that bounce are springs of that restitution'),
 ];
 
 rg.serve({
