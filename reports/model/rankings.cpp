@@ -179,11 +179,16 @@ Mechanism rankingsOver(const ViewModel& view, const std::vector<std::size_t>& sc
     for (const std::size_t s : scenarios) {
         m.scenarios.push_back(view.run().scenarios[s].name);
         const double finest = finestOf(view, s);
-        double cheapest = std::numeric_limits<double>::infinity();
+        std::map<std::string, double> cheapest;  // by clock: times of different clocks are not compared
+        for (std::size_t c = 0; c < view.columns().size(); ++c) {
+            const auto it =
+                cheapest.emplace(view.columns()[c].clock, std::numeric_limits<double>::infinity()).first;
+            if (const double cost = costOf(caseAt(view.cell(s, c), finest)); cost < it->second)
+                it->second = cost;
+        }
         for (std::size_t c = 0; c < view.columns().size(); ++c)
-            if (const double cost = costOf(caseAt(view.cell(s, c), finest)); cost < cheapest) cheapest = cost;
-        for (std::size_t c = 0; c < view.columns().size(); ++c)
-            count(view, view.cell(s, c), caseAt(view.cell(s, c), finest), cheapest, m.rankings[c], sums[c]);
+            count(view, view.cell(s, c), caseAt(view.cell(s, c), finest),
+                  cheapest.at(view.columns()[c].clock), m.rankings[c], sums[c]);
     }
     for (std::size_t c = 0; c < sums.size(); ++c) {
         m.rankings[c].toBest = sums[c].toBest.value();
@@ -223,11 +228,16 @@ std::vector<const results::TimingRow*> stepsOf(const ViewModel& view, std::size_
     return steps;
 }
 
-double leastOf(const std::vector<const results::TimingRow*>& steps, const CostField& field) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto* step : steps)
-        if (const auto value = step ? field.of(*step) : std::nullopt; value && *value > 0.0)
-            least = std::min(least, *value);
+/// The least value of each clock.
+std::map<std::string, double> leastOf(const ViewModel& view,
+                                      const std::vector<const results::TimingRow*>& steps,
+                                      const CostField& field) {
+    std::map<std::string, double> least;
+    for (std::size_t c = 0; c < steps.size(); ++c) {
+        const auto it = least.emplace(view.columns()[c].clock, std::numeric_limits<double>::infinity()).first;
+        if (const auto value = steps[c] ? field.of(*steps[c]) : std::nullopt; value && *value > 0.0)
+            it->second = std::min(it->second, *value);
+    }
     return least;
 }
 
@@ -239,20 +249,23 @@ std::vector<StepCost> stepCosts(const ViewModel& view) {
     std::vector<GeometricMean> medianRatios(costs.size()), meanRatios(costs.size());
     for (std::size_t s = 0; s < view.run().scenarios.size(); ++s) {
         const auto steps = stepsOf(view, s);
-        const double leastMedian = leastOf(steps, kCostFields[0]), leastMean = leastOf(steps, kCostFields[1]);
+        const auto leastMedian = leastOf(view, steps, kCostFields[0]);
+        const auto leastMean = leastOf(view, steps, kCostFields[1]);
         for (std::size_t c = 0; c < steps.size(); ++c) {
             if (steps[c] == nullptr) continue;
             ++costs[c].scenarios;
             for (std::size_t f = 0; f < std::size(kCostFields); ++f)
                 if (const auto value = kCostFields[f].of(*steps[c]); value && std::isfinite(*value))
                     values[c][f].push_back(*value);
-            medianRatios[c].add(steps[c]->median / leastMedian);
-            if (steps[c]->mean) meanRatios[c].add(*steps[c]->mean / leastMean);
+            const std::string& clock = view.columns()[c].clock;
+            medianRatios[c].add(steps[c]->median / leastMedian.at(clock));
+            if (steps[c]->mean) meanRatios[c].add(*steps[c]->mean / leastMean.at(clock));
         }
     }
     for (std::size_t c = 0; c < costs.size(); ++c) {
         for (std::size_t f = 0; f < std::size(kCostFields); ++f)
             if (!values[c][f].empty()) costs[c].*kCostFields[f].to = validation::median(values[c][f]);
+        costs[c].clock = view.columns()[c].clock;
         costs[c].medianRatio = medianRatios[c].value();
         costs[c].meanRatio = meanRatios[c].value();
     }
@@ -264,7 +277,8 @@ std::vector<std::size_t> byCost(const std::vector<StepCost>& costs) {
     for (std::size_t c = 0; c < costs.size(); ++c)
         if (costs[c].scenarios > 0) order.push_back(c);
     const auto key = [&](std::size_t c) {
-        return std::isnan(costs[c].meanRatio) ? costs[c].medianRatio : costs[c].meanRatio;
+        return std::pair(costs[c].clock,
+                         std::isnan(costs[c].meanRatio) ? costs[c].medianRatio : costs[c].meanRatio);
     };
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
     return order;

@@ -21,7 +21,7 @@ using results::Run;
 using results::Verdict;
 
 SpecColumn describe(const CaseRow& row) {
-    SpecColumn column{row.spec, row.engine, row.preset, "", "", {}};
+    SpecColumn column{row.spec, row.engine, row.preset, "", "", "", {}};
     const auto colon = row.spec.find(':');
     std::string rest = colon == std::string::npos ? "" : row.spec.substr(colon + 1);
     while (!rest.empty()) {
@@ -67,6 +67,9 @@ std::vector<SpecColumn> columnsOf(const Run& run) {
     };
     std::stable_sort(columns.begin(), columns.end(),
                      [&](const SpecColumn& a, const SpecColumn& b) { return rank(a) < rank(b); });
+    for (SpecColumn& c : columns)
+        if (const auto place = static_cast<std::size_t>(rank(c)); place < run.engines.size())
+            c.clock = clockOf(run.engines[place]);
     chooseDashes(columns);
     return columns;
 }

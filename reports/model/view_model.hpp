@@ -19,8 +19,10 @@ namespace rigor::report {
 /// One engine as it took part: a column of the scoreboard.
 struct SpecColumn {
     std::string spec, engine, preset;
-    std::string options;       ///< the spec without engine and preset, "stepper=quickstep"; often empty
-    std::string label;         ///< "ode matched stepper=quickstep"
+    std::string options;  ///< the spec without engine and preset, "stepper=quickstep"; often empty
+    std::string label;    ///< "ode matched stepper=quickstep"
+    std::string
+        clock;  ///< "guest, wasm" where its times are not those of modules; only equal ones are compared
     std::vector<double> dash;  ///< dash pattern of its lines, no two of an engine's first six alike; empty:
                                ///< solid
 };
@@ -84,7 +86,7 @@ struct Ranking {
     double toBest = kNoNumber;    ///< geometric means of Ratios
     double toOurs = kNoNumber;
     double cost = kNoNumber;       ///< median over the scenarios of the median of a step [s]
-    double costRatio = kNoNumber;  ///< geometric mean over the cheapest one's
+    double costRatio = kNoNumber;  ///< geometric mean over the cheapest one's of the same clock
 
     /// Scenarios of grade C or better: within a hundredth of the scenario's own scale.
     int within() const { return grades[0] + grades[1] + grades[2]; }
@@ -100,8 +102,11 @@ struct StepCost {
     /// hidden by a median.
     double mean = kNoNumber, p95 = kNoNumber, p99 = kNoNumber, worst = kNoNumber;
     double first = kNoNumber;
-    double realTimeFactor = kNoNumber;                      ///< dt over the mean
-    double medianRatio = kNoNumber, meanRatio = kNoNumber;  ///< geometric means over the cheapest one's
+    double realTimeFactor = kNoNumber;  ///< dt over the mean
+    double medianRatio = kNoNumber,
+           meanRatio = kNoNumber;  ///< geometric means over the cheapest one's of the same
+                                   ///< clock
+    std::string clock;             ///< of the column
 };
 
 /// Scenarios that speak to one mechanism, or to one thing that people simulate.
@@ -194,7 +199,11 @@ std::string regressionSentence(const results::CaseRow& row);
 Mechanism rankingsOver(const ViewModel& view, const std::vector<std::size_t>& scenarios);
 /// Costs of a step by column.
 std::vector<StepCost> stepCosts(const ViewModel& view);
-/// Columns with a cost, the cheapest by the mean ratio first.
+/// Label of an engine's times where they are not those of native code in its process; "" otherwise, and in runs that
+/// did not store it.
+std::string clockOf(const results::EngineRow& engine);
+
+/// Columns with a cost, modules first, then by clock; of a clock the cheapest by the mean ratio first.
 std::vector<std::size_t> byCost(const std::vector<StepCost>& costs);
 /// The ratios of every case of the run.
 std::map<const results::CaseRow*, Ratios> ratiosOf(const ViewModel& view);

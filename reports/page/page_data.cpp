@@ -434,6 +434,7 @@ std::string overviewJson(const ViewModel& view) {
                            {"preset", c.preset},
                            {"options", c.options},
                            {"label", c.label},
+                           {"clock", c.clock},
                            {"dash", c.dash}});
     for (const auto& e : run.engines)
         engines.push_back({{"name", e.name},

@@ -333,15 +333,18 @@ std::vector<std::string> costLines(const ViewModel& view, const Names& names, st
     title += " (cases within 1e-2; medians over scenarios; the first step apart)";
     lines.push_back(paint(cut(title, width), "1"));
     const Mechanism overall = view.overall();
+    const auto nameOf = [&](std::size_t c) {
+        const std::string& clock = costs[c].clock;
+        return plain(names.columns[c].label + (clock.empty() ? "" : " (" + clock + ")"));
+    };
     std::size_t nameWidth = 0;
-    for (const std::size_t c : order)
-        nameWidth = std::max(nameWidth, displayWidth(plain(names.columns[c].label)));
+    for (const std::size_t c : order) nameWidth = std::max(nameWidth, displayWidth(nameOf(c)));
     nameWidth = std::min(nameWidth, width / 3);
     for (const std::size_t c : order) {
         if (lines.size() == most) break;
         const StepCost& cost = costs[c];
         const Ranking& ranking = overall.rankings[c];
-        std::string line = "  " + pad(plain(names.columns[c].label), nameWidth) + "  " +
+        std::string line = "  " + pad(nameOf(c), nameWidth) + "  " +
                            pad(std::to_string(ranking.within()) + "/" + std::to_string(ranking.graded()), 7);
         const std::pair<const char*, double> parts[] = {{"median", cost.median}, {"mean", cost.mean},
                                                         {"first", cost.first},   {"p95", cost.p95},

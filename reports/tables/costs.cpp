@@ -35,7 +35,9 @@ std::string costMarkdown(const ViewModel& view) {
     for (const std::size_t c : order) {
         const StepCost& cost = costs[c];
         const Ranking& ranking = overall.rankings[c];
-        out += "| " + markdownCell(view.columns()[c].label) + " | " + std::to_string(cost.scenarios) + " |";
+        const std::string clock = cost.clock.empty() ? "" : " (" + cost.clock + ")";
+        out += "| " + markdownCell(view.columns()[c].label + clock) + " | " + std::to_string(cost.scenarios) +
+               " |";
         for (const double seconds : {cost.median, cost.mean, cost.first, cost.p95, cost.p99, cost.worst})
             out += " " + time(seconds) + " |";
         out += " " + (std::isnan(cost.realTimeFactor) ? "-" : shortNumber(cost.realTimeFactor)) + " | " +
@@ -46,7 +48,7 @@ std::string costMarkdown(const ViewModel& view) {
            "\nWall time of a step at the finest time step of each scenario, medians over the scenarios. The "
            "first step "
            "stands apart: mean, quantiles, worst and real-time factor (time step over mean) are of all "
-           "others.\n";
+           "others. Times of guests are by their own clocks: the cheapest is that of the same clock.\n";
 }
 
 }  // namespace rigor::report

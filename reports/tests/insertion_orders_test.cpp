@@ -267,5 +267,26 @@ TEST(StepCosts, MedianAndMeanStandSideBySide) {
                           "500x real time"));
 }
 
+TEST(StepCosts, TimesOfDifferentClocksAreNeverInOneRatio) {
+    results::Run run = plainRun();
+    for (auto& engine : run.engines)
+        if (engine.name == "ode") engine.capabilities = R"({"clock": "guest, wasm"})";
+    for (CaseRow& c : run.cases)
+        for (auto& t : c.timings)
+            if (t.phase == "step") t.median = c.engine == "ode" ? 1e-9 : 1e-5;
+    const ViewModel view(run);
+    const auto costs = stepCosts(view);
+    const Mechanism overall = view.overall();
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+        if (costs[i].scenarios == 0) continue;
+        EXPECT_NEAR(costs[i].medianRatio, 1.0, 1e-12) << view.columns()[i].label;
+        EXPECT_NEAR(overall.rankings[i].costRatio, 1.0, 1e-12) << view.columns()[i].label;
+    }
+    const auto order = byCost(costs);
+    ASSERT_FALSE(order.empty());
+    EXPECT_EQ(view.columns()[order.back()].engine, "ode") << "modules come first, though slower";
+    EXPECT_THAT(costMarkdown(view), HasSubstr("(guest, wasm) |"));
+}
+
 }  // namespace
 }  // namespace rigor::report

@@ -219,7 +219,8 @@ struct ScenarioRow {
 struct EngineRow {
     std::string name, title, version, precision, buildNotes;
     std::string problem;  ///< "not installed", or why the module could not be loaded
-    /// Declared features, JSON: {"capabilities": {...}, "options": [...]}; "" in runs before schema 4.
+    /// Declared features, JSON: {"capabilities": {...}, "options": [...], "presets": [...], "clock": "guest, wasm"}; "" in
+    /// runs before schema 4.
     std::string capabilities = {};
     /// Version of its package, where that is another than the library says; "" in runs before schema 6.
     std::string package = {};

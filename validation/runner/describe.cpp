@@ -109,7 +109,8 @@ std::string capabilitiesText(const EngineDescription& description) {
     }
     return json{{"capabilities", adapter::capabilitiesToJson<json>(description.capabilities)},
                 {"options", std::move(options)},
-                {"presets", names}}
+                {"presets", names},
+                {"clock", description.info.clock}}
         .dump();
 }
 

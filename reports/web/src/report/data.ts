@@ -25,6 +25,7 @@ export interface Column {
   preset: string;
   options: string; // options of the spec, without the preset
   label: string;
+  clock?: string; // "guest, wasm" where its times are not those of modules; only those of equal ones are compared
   dash: number[]; // dash pattern of its lines; empty: solid
 }
 

@@ -20,6 +20,23 @@ export const caseOf = (cases: Case[], column: Column): Case | undefined => cases
 /** Columns of the specs that are among the cases. */
 export const columnsAmong = (cases: { spec: string }[]): Column[] =>
   run.columns.filter((c) => cases.some((x) => x.spec === c.spec));
+export const clockOf = (column: Column): string => column.clock ?? '';
+/** Columns of modules, then those of guests, as titles and lists; one without a title where there are modules alone. */
+export function kinds(columns: Column[]): { title: string; columns: Column[] }[] {
+  const guests = columns.filter((c) => clockOf(c) !== '');
+  if (guests.length === 0) return [{ title: '', columns }];
+  const modules = columns.filter((c) => clockOf(c) === '');
+  return [
+    { title: 'Modules', columns: modules },
+    { title: 'Guests', columns: guests },
+  ].filter((kind) => kind.columns.length > 0);
+}
+/** Columns by clock, in the order in which the clocks come. */
+export function byClock<T>(list: T[], clock: (item: T) => string): { clock: string; items: T[] }[] {
+  const found = new Map<string, T[]>();
+  for (const item of list) found.set(clock(item), [...(found.get(clock(item)) ?? []), item]);
+  return [...found].map(([name, items]) => ({ clock: name, items }));
+}
 export const isFirstOfEngine = (columns: Column[], i: number): boolean =>
   i === 0 || columns[i - 1]?.engine !== columns[i]?.engine;
 
@@ -31,7 +48,11 @@ export function metricShown(verdict: string): Shown {
 }
 
 /** Okabe and Ito's palette, distinguishable with every common colour vision; by place in the list of engines. */
-export const palette = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#8C6D1F'];
+export const palette = [
+  ...['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#8C6D1F'],
+  // Tol's muted ones, for more engines.
+  ...['#332288', '#882255', '#44AA99', '#999933', '#661100', '#6699CC', '#7F7F7F'],
+];
 export function engineColour(engine: string): string {
   const taking = [...new Set(run.columns.map((c) => c.engine))];
   const names = [...taking, ...run.engines.map((e) => e.name).filter((name) => !taking.includes(name))];

@@ -135,10 +135,10 @@ test('scenarios are grouped by their first task, unless an order was chosen', ()
 
 test('bars of a row are measured against its best', () => {
   const scale = (i: number, number: Filters['number']) => of.rowScale(list[i] as Scenario, columns, 'all', number);
-  assert.deepEqual(scale(0, 'error'), { bestError: 1, leastCost: 2e-5 });
-  assert.deepEqual(scale(0, 'relative'), { bestError: 0.01, leastCost: 2e-5 });
+  assert.deepEqual(scale(0, 'error'), { bestError: 1, leastCost: new Map([['', 2e-5]]) });
+  assert.deepEqual(scale(0, 'relative'), { bestError: 0.01, leastCost: new Map([['', 2e-5]]) });
   assert.ok(Number.isNaN(scale(1, 'error').bestError), 'one number alone has no best');
-  assert.equal(scale(2, 'error').leastCost, 5e-7);
+  assert.equal(scale(2, 'error').leastCost.get(''), 5e-7);
 });
 
 test('an engine has one colour, whichever of its columns is shown', () => {
@@ -171,4 +171,42 @@ test('labels and verdicts of what the run does not know are still readable', () 
     'known_deviation',
     'unsupported',
   ]);
+});
+
+test('times of guests are compared with those of the same clock alone', async () => {
+  const { rowScale } = await import('../../src/report/overview/filters.ts');
+  const [first, second, third] = columns as [Column, Column, Column];
+  const mixed = [first, second, { ...third, clock: 'guest, wasm' }];
+  const scale = rowScale(list[0] as Scenario, mixed, 'finest', 'error');
+  assert.deepEqual(
+    [...scale.leastCost],
+    [
+      ['', 2e-5],
+      ['guest, wasm', 4e-5],
+    ],
+  );
+});
+
+test('hidden engines are left out, pinned ones come first, modules before guests', async () => {
+  const { chosenColumns, toggled } = await import('../../src/report/overview/filters.ts');
+  const { kinds } = await import('../../src/report/run.ts');
+  const specs = (changes: Partial<Filters>) => chosenColumns({ ...all, ...changes }).map((c) => c.spec);
+  assert.deepEqual(specs({}), ['bullet', 'bullet:preset=matched', 'ode']);
+  assert.deepEqual(specs({ hide: 'bullet' }), ['ode']);
+  assert.deepEqual(specs({ pin: 'ode' }), ['ode', 'bullet', 'bullet:preset=matched']);
+  assert.equal(toggled('a,b', 'a'), 'b');
+  assert.equal(toggled('', 'a'), 'a');
+  const [first, , third] = columns as [Column, Column, Column];
+  const guest = { ...first, engine: 'guest', clock: 'guest' };
+  assert.deepEqual(
+    kinds([guest, third]).map((kind) => [kind.title, kind.columns.length]),
+    [
+      ['Modules', 1],
+      ['Guests', 1],
+    ],
+  );
+  assert.deepEqual(
+    kinds([third]).map((kind) => kind.title),
+    [''],
+  );
 });

@@ -7,7 +7,7 @@
 import { Observable } from '../../common/cursor.ts';
 import { cellOf, costOf, errorOf, gradeOf, isLost, relativeOf, type StepChoice, severity } from '../cells.ts';
 import type { Column, Scenario } from '../data.ts';
-import { run } from '../run.ts';
+import { clockOf, kinds, run } from '../run.ts';
 
 export interface Filters {
   text: string;
@@ -15,6 +15,8 @@ export interface Filters {
   mechanism: string; // mechanism or tag
   dimension: string;
   preset: string;
+  hide: string; // names of engines that are hidden, with commas
+  pin: string; // names of engines that come first, with commas
   grade: string;
   change: string; // change against the record
   verdict: string; // ending
@@ -30,6 +32,8 @@ export const allScenarios: Filters = {
   mechanism: '',
   dimension: '',
   preset: '',
+  hide: '',
+  pin: '',
   grade: '',
   change: '',
   verdict: '',
@@ -60,6 +64,22 @@ export function filtersOf(query: URLSearchParams): void {
 /** Opens the scoreboard with some filters set and the rest reset. */
 export function filterScoreboard(changes: Partial<Filters>): void {
   location.hash = scoreboardLink({ ...allScenarios, ...changes });
+}
+
+export const namesIn = (list: string): string[] => list.split(',').filter(Boolean);
+/** The list with a name in it, or without it where it is there. */
+export function toggled(list: string, name: string): string {
+  const names = namesIn(list);
+  return (names.includes(name) ? names.filter((n) => n !== name) : [...names, name]).join(',');
+}
+
+/** Columns as shown: of the preset, without hidden engines, those of pinned ones first, then modules, then guests. */
+export function chosenColumns(f: Filters): Column[] {
+  const [hidden, pinned] = [namesIn(f.hide), namesIn(f.pin)];
+  const shown = run.columns.filter((c) => (!f.preset || c.preset === f.preset) && !hidden.includes(c.engine));
+  const first = pinned.flatMap((name) => shown.filter((c) => c.engine === name));
+  const rest = shown.filter((c) => !pinned.includes(c.engine));
+  return [...first, ...kinds(rest).flatMap((kind) => kind.columns)];
 }
 
 export function matches(s: Scenario, columns: Column[], f: Filters): boolean {
@@ -149,14 +169,18 @@ export function grouped(list: Scenario[], f: Filters): Group[] {
 /** Scale of the bars of a row. */
 export interface RowScale {
   bestError: number; // smallest number in the row's cells; NaN if fewer than two have one
-  leastCost: number; // the fastest of the row
+  leastCost: Map<string, number>; // the fastest of the row, by clock
 }
 export function rowScale(s: Scenario, columns: Column[], step: StepChoice, number: Filters['number']): RowScale {
   const cells = columns.map((c) => cellOf(s, c, step));
   const errors = cells.map(number === 'error' ? errorOf : relativeOf).filter(Number.isFinite);
-  const costs = cells.map(costOf).filter((c) => c > 0);
+  const leastCost = new Map<string, number>();
+  columns.forEach((column, i) => {
+    const cost = costOf(cells[i] ?? null);
+    if (cost > 0) leastCost.set(clockOf(column), Math.min(cost, leastCost.get(clockOf(column)) ?? Infinity));
+  });
   return {
     bestError: errors.length > 1 ? Math.min(...errors) : NaN,
-    leastCost: costs.length ? Math.min(...costs) : NaN,
+    leastCost,
   };
 }

@@ -18,10 +18,21 @@ import {
 import { type Cell, cellOf, costOf, errorOf, gradeOf, isLost, logPlace, relativeOf } from '../cells.ts';
 import type { Column, Scenario, Shown } from '../data.ts';
 import { decidingText, mainText } from '../deciding.ts';
-import { dimensionNote, dimensionsOf, isFirstOfEngine, run, scenarioLink, subtitleOf, verdictText } from '../run.ts';
+import {
+  clockOf,
+  dimensionNote,
+  dimensionsOf,
+  isFirstOfEngine,
+  run,
+  scenarioLink,
+  subtitleOf,
+  verdictText,
+} from '../run.ts';
 import { changeMark, chip, gradeBar, gradeChip, panel, select, specHead } from '../widgets.ts';
+import { engineChoice } from './engine_choice.ts';
 import {
   allScenarios,
+  chosenColumns,
   type Filters,
   filters,
   type Group,
@@ -46,6 +57,9 @@ const meaning: Record<Shown, string> = {
   unsupported: '“not yet”: not in the adapter yet, “n/a”: the library has none',
 };
 
+/** The fastest of the row among those whose times are of the same clock. */
+const leastCost = (scale: RowScale, column: Column): number => scale.leastCost.get(clockOf(column)) ?? NaN;
+
 /** Content of the cell in words, for its tooltip and for screen readers. */
 function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): string[] {
   const { at, worst, cases } = cell;
@@ -64,7 +78,10 @@ function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): str
     if (at.range) lines.push(`${words(s.main.name)} ${at.range}`);
   }
   const cost = costOf(cell);
-  if (cost > 0) lines.push(`${duration(cost)} a step, ${ratio(cost / scale.leastCost)} the fastest here`);
+  if (cost > 0) {
+    const clock = clockOf(column) ? ` (${clockOf(column)})` : '';
+    lines.push(`${duration(cost)} a step${clock}, ${ratio(cost / leastCost(scale, column))} the fastest here`);
+  }
   if (worst.miss) {
     const times = ratio(toNumber(worst.miss.value) / toNumber(worst.miss.bound));
     lines.push(
@@ -128,7 +145,7 @@ function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters, digi
     ' ',
     el('span', { class: best ? 'value best' : 'value' }, said(s, column, cell, f.number, digits)),
     meter('error', logPlace(relativeOf(cell), 1e-6, 1)),
-    meter('cost', logPlace(costOf(cell), scale.leastCost, 1000 * scale.leastCost)),
+    meter('cost', logPlace(costOf(cell), leastCost(scale, column), 1000 * leastCost(scale, column))),
   );
 }
 
@@ -298,6 +315,7 @@ function controls(f: Filters): HTMLElement[] {
       (group) => set({ group: group as Filters['group'] }),
     ),
     el('button', { class: 'button', onclick: () => filters.set({ ...allScenarios }) }, 'Reset'),
+    engineChoice(f, set),
   ];
 }
 
@@ -325,7 +343,7 @@ function legend(): HTMLElement {
       el('b', null, 'Upper bar: that relative error'),
       ', empty at 1e-6, full at 1. ',
       el('b', null, 'Lower bar: cost'),
-      ' of a step, empty for the fastest engine of the row, full at a thousand times that. Both logarithmic; short and short is good.',
+      ' of a step, empty for the fastest engine of the row whose times are of the same clock, full at a thousand times that. Both logarithmic; short and short is good.',
     ),
     el(
       'div',
@@ -356,7 +374,7 @@ export function scoreboard(): HTMLElement {
   const count = el('span', { class: 'muted small', role: 'status' });
   const bar = el('div', { class: 'filters' });
   const draw = (f: Filters) => {
-    const columns = run.columns.filter((c) => !f.preset || c.preset === f.preset);
+    const columns = chosenColumns(f);
     const list = ordered(
       run.scenarios.filter((s) => matches(s, columns, f)),
       run.columns,

@@ -10,7 +10,7 @@ import type { Line } from '../charts/line.ts';
 import { plotCard } from '../charts/plot.ts';
 import type { Column, Step } from '../data.ts';
 import { placed } from '../ranking.ts';
-import { engineColour, run } from '../run.ts';
+import { byClock, clockOf, engineColour, run } from '../run.ts';
 import { facts, folded, gradeBar, headRow, panel, scroll, select } from '../widgets.ts';
 import { costTable } from './cost.ts';
 
@@ -148,7 +148,8 @@ const finite = (value: Maybe | undefined): string => (Number.isFinite(toNumber(v
 
 /** Medians over the scenarios; the phases that an engine reports, as fractions of its step. */
 function summaryTable(): HTMLElement {
-  const list = placed(run.overall, run.columns).filter((s) => toNumber(s.cost) > 0);
+  const costly = placed(run.overall, run.columns).filter((s) => toNumber(s.cost) > 0);
+  const list = byClock(costly, (s) => clockOf(s.column)).flatMap((group) => group.items);
   const phases = (spec: string) => {
     const shares = new Map<string, number[]>();
     for (const s of run.scenarios) {
@@ -190,7 +191,12 @@ function summaryTable(): HTMLElement {
           el(
             'tr',
             null,
-            el('th', { class: 'sticky', scope: 'row' }, s.column.label),
+            el(
+              'th',
+              { class: 'sticky', scope: 'row' },
+              s.column.label,
+              clockOf(s.column) ? el('span', { class: 'sub' }, clockOf(s.column)) : null,
+            ),
             el('td', { class: 'num' }, duration(s.cost)),
             (['mean', 'first', 'p95', 'p99', 'worst'] as const).map((key) =>
               el('td', { class: 'num' }, duration(costs(s.column)?.[key])),
@@ -210,22 +216,26 @@ function summaryTable(): HTMLElement {
   );
 }
 
-function costBars(columns: Column[]): HTMLElement {
-  const bars = placed(run.overall, run.columns)
+/** Ratios to the fastest, those of each clock apart. */
+function costBars(columns: Column[]): HTMLElement[] {
+  const costly = placed(run.overall, run.columns)
     .filter((s) => columns.includes(s.column) && toNumber(s.costRatio) > 0)
-    .sort((a, b) => toNumber(a.costRatio) - toNumber(b.costRatio))
-    .map((s) => ({
+    .sort((a, b) => toNumber(a.costRatio) - toNumber(b.costRatio));
+  return byClock(costly, (s) => clockOf(s.column)).map(({ clock, items }) => {
+    const bars = items.map((s) => ({
       label: s.column.label,
       value: toNumber(s.costRatio),
       text: `×${format(s.costRatio, 3)}`,
       colour: engineColour(s.column.engine),
     }));
-  return el(
-    'div',
-    { class: 'chart' },
-    el('h4', null, 'Time of a step, typically × the fastest engine of the same scenario'),
-    barList(bars, false, 'var(--accent)'),
-  );
+    const title = 'Time of a step, typically × the fastest engine of the same scenario';
+    return el(
+      'div',
+      { class: 'chart' },
+      el('h4', null, clock ? `${title}, among those of the clock “${clock}”` : title),
+      barList(bars, false, 'var(--accent)'),
+    );
+  });
 }
 
 export function timing(): HTMLElement | null {
@@ -244,12 +254,12 @@ export function timing(): HTMLElement | null {
       'Wall time of one step by the monotonic clock, medians over the scenarios. The first step stands apart: mean, 95 %, 99 %, worst and × real time (time step ',
       'over the mean) are of all others. Plots show the median, with its 95 % interval where there are enough samples (else from the 10th to the 90th percentile), always beside the errors of the same runs. Times hold for the machine below, and for cases that may have run beside others: ',
       el('code', null, 'rigor bench'),
-      ' measures alone and interleaved.',
+      ' measures alone and interleaved. Guests’ times are by their own clocks, and stand in no ratio with those of modules: × the fastest is among those of the same clock.',
     ),
     el('div', { class: 'split' }, facts(machine), facts(precision)),
     summaryTable(),
     el('h3', null, 'Scaling, and cost against accuracy'),
-    toggled((columns) => [costBars(columns), ...accuracy(columns), ...scaling(columns)]),
+    toggled((columns) => [...costBars(columns), ...accuracy(columns), ...scaling(columns)]),
     folded('Every scenario: time of a step, below it the grade and the main error of the same run', () =>
       scroll(costTable()),
     ),
