@@ -41,7 +41,9 @@ scenario::Study chosenParts(scenario::Study study, const std::vector<std::string
 }
 
 int runStudy(const StudyArguments& a) {
-    const auto study = chosenParts(scenario::loadStudy(scenario::findStudy(a.study)), a.parts);
+    auto study = chosenParts(scenario::loadStudy(scenario::findStudy(a.study)), a.parts);
+    for (const std::string& line : validation::leaveOutAbsent(study))
+        std::fprintf(stderr, "rigor: %s\n", line.c_str());
     validation::RunOptions options;
     options.referenceLimits = a.referenceLimits;
     auto plan = validation::planStudy(

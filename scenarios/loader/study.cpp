@@ -165,12 +165,13 @@ Study loadStudy(const fs::path& file) {
     const Node root(document.value, "", context);
     Study study;
     study.file = file;
-    root.isObject({"rigor_study", "name", "title", "description", "parts"});
+    root.isObject({"rigor_study", "name", "title", "description", "leave_out_absent", "parts"});
     if (document.value.is_object()) {
         if (const auto n = root.require("rigor_study")) n->integer(1, 1);
         if (const auto n = root.require("name")) study.name = n->name();
         if (const auto n = root.find("title")) study.title = n->text();
         if (const auto n = root.find("description")) study.description = n->text();
+        if (const auto n = root.find("leave_out_absent")) study.leaveOutAbsent = n->boolean();
         if (const auto list = root.require("parts"))
             for (const Node& item : list->items()) {
                 StudyPart part = readPart(item);

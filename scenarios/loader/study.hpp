@@ -71,6 +71,7 @@ struct StudyPart {
 struct Study {
     std::filesystem::path file;
     std::string name, title, description;
+    bool leaveOutAbsent = false;  ///< variants of engines that are not installed are left out, not an error
     std::vector<StudyPart> parts;
 };
 

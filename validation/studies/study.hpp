@@ -52,6 +52,10 @@ using ScenarioLoader = std::function<scenario::LoadedScenario(const std::string&
 /// Keys of the spec of an engine.
 using OptionLookup = std::function<std::vector<adapter::Option>(const std::string& engine)>;
 
+/// Takes the variants of engines that are not installed out of the study, with the findings about them, symptoms that
+/// need them, and parts of which nothing is left. Returns a line for each engine. Only where the study asks for it.
+std::vector<std::string> leaveOutAbsent(scenario::Study& study);
+
 /// Lays out the grid. A spec without a preset runs in the preset `default`. `options` gives the engines that
 /// have threads, if the study has the symmetry `threads`. Throws LoadError and BadInput.
 StudyPlan planStudy(const scenario::Study& study, const ScenarioLoader& load,

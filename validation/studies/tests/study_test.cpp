@@ -57,6 +57,29 @@ TEST(StudyPlan, IsTheWholeGridOnce) {
     EXPECT_TRUE(masses.contains("slide_and_stop.grid-2"));
 }
 
+TEST(StudyPlan, LeavesOutWhatIsNotInstalledWhereTheStudySaysSo) {
+    const std::string parts = R"("parts": [
+ {"name": "both", "scenarios": ["slide_and_stop"], "variants": ["rigor", "no_such_engine:preset=matched"],
+  "metrics": ["rest_sink", "energy_gain"],
+  "symptom": {"fault": "no_such_engine:preset=matched", "cure": "rigor", "metric": "energy_gain", "fault_at_least": 1,
+              "cure_at_most": 0},
+  "findings": [{"statement": "x", "variant": "rigor", "metric": "rest_sink", "at_most": 1},
+               {"statement": "y", "variant": "no_such_engine:preset=matched", "metric": "rest_sink", "at_most": 1}]},
+ {"name": "none", "scenarios": ["slide_and_stop"], "variants": ["no_such_engine"], "metrics": ["rest_sink"]}]})";
+    scenario::Study study = studyOf(R"({"rigor_study": 1, "name": "t", "leave_out_absent": true, )" + parts);
+    const auto lines = leaveOutAbsent(study);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0], "no_such_engine is left out: engine 'no_such_engine' is not installed");
+    ASSERT_EQ(study.parts.size(), 1u);
+    EXPECT_EQ(study.parts[0].findings.size(), 1u);
+    EXPECT_FALSE(study.parts[0].symptom.has_value());
+    EXPECT_EQ(planOf(study).rows.size(), 1u);
+
+    scenario::Study strict = studyOf(R"({"rigor_study": 1, "name": "t", )" + parts);
+    EXPECT_TRUE(leaveOutAbsent(strict).empty());
+    EXPECT_THROW(planOf(strict), adapter::BadInput);
+}
+
 TEST(StudyColumns, TheDivergenceTimeHasItsOldNameToo) {
     for (const char* name : {"divergence_time", "onset"}) {
         const Column own = columnOf(name), other = columnOf(std::string(name) + ":bullet");
