@@ -45,6 +45,7 @@ const options = [
     rg.number('convex_radius', 0, 1, 0.05, 0, 'rounding of boxes, cylinders and hulls, inwards [m]'),
     rg.number('restitution_threshold', 0, 100, 1, 0, 'slower approaches do not bounce [m/s]'),
     rg.choice('gyroscopic_term', ['on', 'off'], 'off', 'on', 'mApplyGyroscopicForce of every body'),
+    rg.choice('internal_edge_removal', ['on', 'off'], 'off', 'on', 'mEnhancedInternalEdgeRemoval of every body: inner edges are not felt'),
     rg.choice('sleeping', ['on', 'off'], 'on', 'off', 'bodies at rest are put to sleep'),
     rg.choice('contact_cache', ['on', 'off'], 'on', 'off', 'contacts of pairs that hardly moved are kept over steps'),
     rg.number('max_linear_velocity', 1, 1e9, 500, 1e6, 'velocities are cut off there [m/s]'),

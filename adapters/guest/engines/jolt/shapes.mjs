@@ -14,19 +14,28 @@ function hullOf(vertices, radius) {
     return settings;
 }
 
-/** Triangles of a mesh have one side: each of them twice, once for either. */
-function meshOf({ vertices, triangles }) {
+function oneSided({ vertices, triangles }, user) {
     const list = new J.TriangleList();
     const points = vertices.map((v) => new J.Vec3(...v));
-    const add = (a, b, c) => using(new J.Triangle(points[a], points[b], points[c]), (triangle) => list.push_back(triangle));
-    for (const [a, b, c] of triangles) {
-        add(a, b, c);
-        add(c, b, a);
-    }
+    for (const [a, b, c] of triangles)
+        using(new J.Triangle(points[a], points[b], points[c]), (triangle) => list.push_back(triangle));
     const settings = new J.MeshShapeSettings(list);
+    settings.mUserData = user;
     for (const point of points) J.destroy(point);
     J.destroy(list);
     return settings;
+}
+
+/**
+ * The library's triangles have one side, and it finds inner edges, which are not to be felt, by the two triangles of an
+ * edge. So a mesh is two, one for either side.
+ */
+function meshOf(mesh, user) {
+    const turned = { ...mesh, triangles: mesh.triangles.map(([a, b, c]) => [c, b, a]) };
+    const both = new J.StaticCompoundShapeSettings();
+    for (const side of [mesh, turned])
+        withVec3([0, 0, 0], (origin) => withQuat([1, 0, 0, 0], (q) => both.AddShape(origin, q, oneSided(side, user), user)));
+    return both;
 }
 
 const builders = {
@@ -37,8 +46,8 @@ const builders = {
     cylinder: (s, radius) =>
         new J.CylinderShapeSettings(s.half_length, s.radius, Math.min(radius, s.half_length, s.radius)),
     hull: (s, radius) => hullOf(s.vertices, radius),
-    triangle_mesh: meshOf,
-    height_field: (s) => meshOf(surfaceOf(s)),
+    triangle_mesh: (s, _radius, user) => meshOf(s, user),
+    height_field: (s, _radius, user) => oneSided(surfaceOf(s), user),
     half_space: (s) =>
         withVec3(s.normal, (normal) => {
             const plane = new J.Plane(normal, -s.offset);
@@ -64,7 +73,7 @@ export function shapeOf(body, radius) {
     const compound = new J.StaticCompoundShapeSettings();
     let whole = parts.length === 0 ? new J.SphereShapeSettings(1) : compound;
     parts.forEach((shape, k) => {
-        const settings = builders[shape.shape](shape, radius);
+        const settings = builders[shape.shape](shape, radius, k + 1);
         settings.mUserData = k + 1;
         const still = shape.position.every((x) => x === 0) && shape.orientation[0] === 1;
         // A single shape in the frame of its body needs no other one around it.

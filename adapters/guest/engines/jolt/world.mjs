@@ -97,6 +97,7 @@ export class JoltWorld extends rg.World {
         settings.mGravityFactor = body.gravity_scale;
         settings.mApplyGyroscopicForce = this.settings.gyroscopic_term === 'on';
         settings.mAllowSleeping = this.settings.sleeping === 'on';
+        settings.mEnhancedInternalEdgeRemoval = this.settings.internal_edge_removal === 'on';
         if (this.scenario.planar) settings.mAllowedDOFs = J.EAllowedDOFs_Plane2D;
         if (body.type !== 'static') {
             settings.mLinearVelocity.Set(...body.velocity);

@@ -37,16 +37,23 @@ export const space = {
         cylinder: (s) => ({ desc: RAPIER.ColliderDesc.cylinder(s.half_length, s.radius) }),
         cone: (s) => ({ desc: RAPIER.ColliderDesc.cone(s.half_length, s.radius) }),
         hull: (s) => ({ desc: RAPIER.ColliderDesc.convexHull(new Float32Array(s.vertices.flat())) }),
-        triangle_mesh: (s) => ({
-            desc: RAPIER.ColliderDesc.trimesh(new Float32Array(s.vertices.flat()), new Uint32Array(s.triangles.flat())),
+        triangle_mesh: (s, { internal_edges }) => ({
+            desc: RAPIER.ColliderDesc.trimesh(
+                new Float32Array(s.vertices.flat()),
+                new Uint32Array(s.triangles.flat()),
+                internal_edges === 'fixed' ? RAPIER.TriMeshFlags.FIX_INTERNAL_EDGES_TWO_SIDED : undefined,
+            ),
         }),
         // Heights are a matrix of columns; its rows lie along z, its columns along x.
-        height_field: (s) => {
+        height_field: (s, { internal_edges }) => {
             const heights = Array.from({ length: s.columns }, (_, i) =>
                 Array.from({ length: s.rows }, (_, k) => s.heights[k * s.columns + i]),
             );
             const scale = { x: (s.columns - 1) * s.spacing_x, y: 1, z: (s.rows - 1) * s.spacing_z };
-            return { desc: RAPIER.ColliderDesc.heightfield(s.rows - 1, s.columns - 1, new Float32Array(heights.flat()), scale) };
+            const flags = internal_edges === 'fixed' ? RAPIER.HeightFieldFlags.FIX_INTERNAL_EDGES : undefined;
+            return {
+                desc: RAPIER.ColliderDesc.heightfield(s.rows - 1, s.columns - 1, new Float32Array(heights.flat()), scale, flags),
+            };
         },
         // Its surface contains the origin of the collider.
         half_space: (s) => ({

@@ -9,7 +9,7 @@ const kFarthest = 1e3;
 
 /** Positions are relative to `origin`, before they become numbers of single precision. */
 function placed(space, given, origin) {
-    const { desc, offset = [0, 0, 0] } = space.builders[given.shape](given);
+    const { desc, offset = [0, 0, 0] } = space.builders[given.shape](given, {});
     if (!desc) throw new rg.BadInput('Rapier builds no hull of these vertices');
     const inWorld = rg.sum(given.position, rg.rotate(given.orientation, offset));
     const position = rg.difference(inWorld, origin);

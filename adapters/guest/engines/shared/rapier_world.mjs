@@ -122,7 +122,7 @@ export class RapierWorld extends rg.World {
     }
 
     colliderOf(shape, frame, user) {
-        const { desc, offset = [0, 0, 0] } = this.space.builders[shape.shape](shape);
+        const { desc, offset = [0, 0, 0] } = this.space.builders[shape.shape](shape, this.settings);
         if (!desc) throw new rg.BadInput(`${user}: Rapier builds no hull of these vertices`);
         const inBody = rg.sum(shape.position, rg.rotate(shape.orientation, offset));
         return desc
