@@ -55,7 +55,7 @@ const options = [
         'impulse',
         'force: a number of newtons bounds an impulse, as the library ships; impulse: times the time step',
     ),
-    rg.choice('friction_reduction', ['on', 'off'], 'off', 'on', 'one friction for all points of a pair of shapes'),
+    rg.choice('friction_reduction', ['on', 'off'], 'off', 'off', 'one friction for all points of a pair of shapes'),
     rg.number('segments', 3, 256, 8, 24, 'sides of cylinders and cones', true),
     rg.choice('sleeping', ['on', 'off'], 'off', 'off', 'bodies at rest are put to sleep'),
 ];

@@ -4,10 +4,12 @@
 // The library's contact listener: it gives every contact the coefficients of its pair of materials, refuses those that
 // the scenario's filters refuse, and keeps the points, which stand at the poses at which the step began.
 import * as rg from '../../sdk/rigor_guest.mjs';
-import { J, vector } from './library.mjs';
+import { J, quaternion, vector } from './library.mjs';
 
 /** Contacts farther apart than this act only if their bodies approach each other so far in the step [m]. */
 const kTouching = 1e-4;
+
+const isMoving = (velocity) => [...velocity.linear, ...velocity.angular].some((x) => x !== 0);
 
 export class Contacts {
     constructor(scenario, dt) {
@@ -25,6 +27,7 @@ export class Contacts {
         this.filters = scenario.bodies.some((body) =>
             body.shapes.some(({ filter: f }) => f.group !== 0 || f.layers !== first.layers || f.collides_with !== first.collides_with),
         ) || (first !== undefined && (first.layers & first.collides_with) === 0);
+        this.surfacesMove = scenario.bodies.some((body) => body.shapes.some(({ surface_velocity: v }) => isMoving(v)));
         this.listener = this.makeListener();
     }
 
@@ -74,6 +77,7 @@ export class Contacts {
         const pair = this.coefficients(material(a, shapes[0]), material(b, shapes[1]));
         settings.mCombinedFriction = pair.friction;
         settings.mCombinedRestitution = pair.restitution;
+        if (this.surfacesMove) this.setSurfaceVelocity(settings, [bodyA, bodyB], [a, b], shapes);
         const normal = vector(manifold.mWorldSpaceNormal);
         const count = manifold.mRelativeContactPointsOn1.size();
         for (let k = 0; k < count; ++k) {
@@ -87,6 +91,20 @@ export class Contacts {
             const [onA, onB] = [rg.sum(middle, half), rg.difference(middle, half)];
             this.rows.push(rg.contact(a, b, onA, onB, normal, depth, undefined, undefined, shapes));
         }
+    }
+
+    /** Velocity of B's surface against A's: linear at A's centre of mass, and angular about it. */
+    setSurfaceVelocity(settings, bodies, indices, shapes) {
+        const center = vector(bodies[0].GetCenterOfMassPosition());
+        const [first, second] = bodies.map((body, side) => {
+            const { linear, angular } = this.scenario.bodies[indices[side]].shapes[shapes[side]].surface_velocity;
+            const turn = quaternion(body.GetRotation());
+            const w = rg.rotate(turn, angular);
+            const arm = rg.difference(center, vector(body.GetPosition()));
+            return { v: rg.sum(rg.rotate(turn, linear), rg.cross(w, arm)), w };
+        });
+        settings.mRelativeLinearSurfaceVelocity.Set(...rg.difference(second.v, first.v));
+        settings.mRelativeAngularSurfaceVelocity.Set(...rg.difference(second.w, first.w));
     }
 
     velocityAt(body, point) {
