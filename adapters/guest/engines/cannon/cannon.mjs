@@ -34,6 +34,7 @@ const capabilities = {
         ellipsoid: shapeTypes,
         slider: constraints,
         'hinge.limit': 'cannon-es.d.ts, class HingeConstraint: motor alone',
+        surface_velocity: 'cannon-es.d.ts, class FrictionEquation: the velocity of the bodies alone',
         static_friction: oneCoefficient,
         rolling_friction: oneCoefficient,
         torsional_friction: oneCoefficient,

@@ -35,6 +35,7 @@ const capabilities = {
     library_lacks: {
         cone: geoms,
         triangle_mesh: 'MuJoCo documentation, Computation, Collision detection: a mesh collides as its convex hull',
+        surface_velocity: 'MuJoCo documentation, XML reference, geom: none of its attributes is a velocity',
         static_friction: 'MuJoCo documentation, XML reference, geom/friction: sliding, torsional, rolling',
     },
 };

@@ -43,6 +43,7 @@ export class Contacts {
             .getWorldManifold(null, this.starts[a[0]], radii[0], this.starts[b[0]], radii[1]);
         const normal = [manifold.normal.x, manifold.normal.y, 0];
         const skins = [skinOf(shapeA), skinOf(shapeB)];
+        if (manifold.pointCount > 0) contact.setTangentSpeed(this.surfaceSpeed([a, b], manifold));
         const points = [];
         for (let k = 0; k < manifold.pointCount; ++k) {
             // The library's point is the middle between the surfaces with their skins.
@@ -53,6 +54,19 @@ export class Contacts {
             points.push({ a, b, onA, onB, normal, depth: -(separation + skins[0] + skins[1]), impulse: 0, friction: 0 });
         }
         this.points.set(contact, points);
+    }
+
+    /** The library's tangent speed: of A's surface against B's, along the tangent, in the middle of the points. */
+    surfaceSpeed(owners, { normal, points, pointCount }) {
+        const used = points.slice(0, pointCount);
+        const middle = ['x', 'y'].map((key) => used.reduce((sum, point) => sum + point[key], 0) / pointCount);
+        const [first, second] = owners.map((owner) => {
+            const { linear, angular } = this.shapeOf(owner).surface_velocity;
+            const { p, q } = this.starts[owner[0]];
+            const turned = [q.c * linear[0] - q.s * linear[1], q.s * linear[0] + q.c * linear[1]];
+            return [turned[0] - angular[2] * (middle[1] - p.y), turned[1] + angular[2] * (middle[0] - p.x)];
+        });
+        return (first[0] - second[0]) * normal.y - (first[1] - second[1]) * normal.x;
     }
 
     afterSolve(contact, impulse) {

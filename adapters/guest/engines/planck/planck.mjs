@@ -19,6 +19,7 @@ const capabilities = {
     damping: true,
     gravity_scale: true,
     center_of_mass_offset: true,
+    surface_velocity: true,
     contact_filters: true,
     shape_filters: true,
     library_lacks: {

@@ -34,6 +34,7 @@ export function serveRapier(space, dimension, own) {
             library_lacks: {
                 ...own.lacks,
                 distance: 'dynamics/impulse_joint.d.ts, enum JointType: Rope bounds a distance from above, Spring is soft',
+                surface_velocity: 'geometry/narrow_phase.d.ts: solverContactTangentVelocity is read, and nothing sets it',
                 static_friction: oneCoefficient,
                 rolling_friction: oneCoefficient,
             },
