@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { directionOf, sidesOf, springOf } from '../shared/springs_2d.mjs';
 import { angleOf, B, withRot, withVec2 } from './library.mjs';
 
 /** The library keeps limits of hinges below this [rad]. */
@@ -18,24 +19,8 @@ function setFrame(base, key, anchor, angle) {
     frame.delete();
 }
 
-/** Inverse mass of a body against an impulse of direction `n` at `arm` from its centre, or against a turn (no direction). */
-function inverseMass(body, n, arm) {
-    if (body?.type !== 'dynamic') return 0;
-    if (!n) return 1 / body.inertia[8];
-    return 1 / body.mass + (arm[0] * n[1] - arm[1] * n[0]) ** 2 / body.inertia[8];
-}
-
-/**
- * Springs of the library have a frequency and a damping ratio on the mass of their coordinate: those that give stiffness
- * and damping at the start. The mass of an angle is constant.
- */
-function springOf(axis, sides, joint, n) {
-    if (!(axis.stiffness > 0 || axis.damping > 0)) return {};
-    if (axis.stiffness === 0) throw new rg.Unsupported(`damper of a ${joint.type}`, '', `joint '${joint.name}'`);
-    const mass = 1 / sides.reduce((sum, { body, arm }) => sum + inverseMass(body, n, arm), 0);
-    const rate = Math.sqrt(axis.stiffness / mass);
-    return { enableSpring: true, hertz: rate / (2 * Math.PI), dampingRatio: axis.damping / (2 * mass * rate) };
-}
+/** The library's keys of a spring; none without one. */
+const enabled = (spring) => (spring ? { enableSpring: true, ...spring } : {});
 
 /** The library's wheels have no target of their spring: A's anchor is moved by it along the axis. */
 function wheelTarget(joint) {
@@ -55,7 +40,7 @@ const kinds = {
             }
             if (axis.motor_max_force > 0)
                 Object.assign(def, { enableMotor: true, motorSpeed: axis.motor_speed, maxMotorTorque: axis.motor_max_force });
-            Object.assign(def, springOf(axis, sides, joint));
+            Object.assign(def, enabled(springOf(axis, sides, joint)));
             def.targetAngle = axis.target ?? 0;
         },
     },
@@ -71,7 +56,7 @@ const kinds = {
                 });
             if (axis.motor_max_force > 0)
                 Object.assign(def, { enableMotor: true, motorSpeed: axis.motor_speed, maxMotorForce: axis.motor_max_force });
-            Object.assign(def, springOf(axis, sides, joint, along));
+            Object.assign(def, enabled(springOf(axis, sides, joint, along)));
             def.targetTranslation = axis.target ?? 0;
         },
     },
@@ -83,7 +68,7 @@ const kinds = {
             def.enableSpring = false;
             if (travel?.mode === 'locked' || angle?.mode === 'locked' || angle?.mode === 'limited' || travel?.motor_max_force > 0)
                 throw new rg.Unsupported('such a wheel', '', `joint '${joint.name}'`);
-            if (travel) Object.assign(def, springOf(travel, sides, joint, along));
+            if (travel) Object.assign(def, enabled(springOf(travel, sides, joint, along)));
             if (travel?.mode === 'limited')
                 Object.assign(def, {
                     enableLimit: true,
@@ -99,7 +84,7 @@ const kinds = {
         def: () => B.b2DefaultDistanceJointDef(),
         create: (world, def) => B.b2CreateDistanceJoint(world, def),
         set(def, axis, joint, sides, along) {
-            const spring = springOf(axis, sides, joint, along);
+            const spring = enabled(springOf(axis, sides, joint, along));
             def.length = spring.enableSpring ? axis.target : joint.length;
             if (spring.enableSpring && axis.mode !== 'limited') {
                 Object.assign(def, spring);
@@ -115,14 +100,6 @@ const kinds = {
         },
     },
 };
-
-/** Direction of a joint's coordinate in the world: its axis, or the line of its anchors. */
-function directionOf(joint, poseA, poseB) {
-    if (joint.type !== 'distance') return rg.rotate(poseA.orientation, joint.axis_a);
-    const anchorOf = ({ position, orientation }, anchor) => rg.sum(position, rg.rotate(orientation, anchor));
-    const line = rg.difference(anchorOf(poseB, joint.anchor_b), anchorOf(poseA, joint.anchor_a));
-    return rg.scaled(1 / Math.max(rg.norm(line), 1e-12), line);
-}
 
 /** Adds a joint between two bodies of these poses at the start. */
 export function addJoint(world, scenario, joint, bodyA, bodyB, poseA, poseB) {
@@ -142,11 +119,7 @@ export function addJoint(world, scenario, joint, bodyA, bodyB, poseA, poseB) {
     setFrame(base, 'localFrameA', anchorA, angle - angleOf(poseA.orientation));
     setFrame(base, 'localFrameB', joint.anchor_b, angle - angleOf(poseB.orientation));
     def.base = base;
-    const sideOf = (index, pose, anchor) => {
-        const body = scenario.bodies[index];
-        return { body, arm: body ? rg.rotate(pose.orientation, rg.difference(anchor, body.center_of_mass)) : [0, 0, 0] };
-    };
-    const sides = [sideOf(joint.body_a, poseA, joint.anchor_a), sideOf(joint.body_b, poseB, joint.anchor_b)];
+    const sides = sidesOf(scenario, joint, poseA, poseB);
     if (axis) kind.set(def, axis, joint, sides, along);
     const created = kind.create(world, def);
     def.delete();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-import { DistanceJoint, PrismaticJoint, RevoluteJoint, RopeJoint, WeldJoint } from 'planck';
+import { DistanceJoint, PrismaticJoint, RevoluteJoint, RopeJoint, WeldJoint, WheelJoint } from 'planck';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { directionOf, sidesOf, springOf } from '../shared/springs_2d.mjs';
 import { angleOf, toPlanck } from './shapes.mjs';
 
 /** Limits and motor of a hinge or slider; `names` are those of the library's keys. */
@@ -20,7 +21,10 @@ function drive(joint, names) {
     return keys;
 }
 
-export function jointOf(joint, bodyA, bodyB, poseA, poseB) {
+/** The library's keys of a spring. */
+const softness = (spring) => (spring ? { frequencyHz: spring.hertz, dampingRatio: spring.dampingRatio } : {});
+
+export function jointOf(scenario, joint, bodyA, bodyB, poseA, poseB) {
     const keys = {
         bodyA,
         bodyB,
@@ -29,6 +33,8 @@ export function jointOf(joint, bodyA, bodyB, poseA, poseB) {
         localAnchorB: toPlanck(joint.anchor_b),
         referenceAngle: angleOf(poseB.orientation) - angleOf(poseA.orientation),
     };
+    const along = directionOf(joint, poseA, poseB);
+    const springAt = (axis) => springOf(axis, sidesOf(scenario, joint, poseA, poseB), joint, along);
     switch (joint.type) {
         case 'hinge':
             return new RevoluteJoint({
@@ -43,18 +49,40 @@ export function jointOf(joint, bodyA, bodyB, poseA, poseB) {
             });
         case 'fixed':
             return new WeldJoint(keys);
+        case 'wheel':
+            return wheel(joint, keys, springAt);
         default:
-            return distance(joint, keys);
+            return distance(joint, keys, springAt);
     }
 }
 
-/** A rod, or a rope: the library bounds a distance from above alone. */
-function distance(joint, keys) {
+/** The library's wheels have a spring without a target, for which A's anchor is moved along the axis, and no limits. */
+function wheel(joint, keys, springAt) {
+    const [travel, angle] = ['travel', 'angle'].map((name) => joint.axes.find((given) => given.name === name));
+    const isPlain = (travel?.mode ?? 'free') === 'free' && (angle?.mode ?? 'free') === 'free';
+    if (!isPlain || travel?.motor_max_force > 0)
+        throw new rg.Unsupported('limits of a wheel', 'planck.d.ts, interface WheelJointOpt: none', `joint '${joint.name}'`);
+    const moved = rg.sum(joint.anchor_a, rg.scaled(travel?.target ?? 0, joint.axis_a));
+    const motor = angle?.motor_max_force > 0;
+    return new WheelJoint({
+        ...keys,
+        frequencyHz: 0,
+        ...softness(travel && springAt(travel)),
+        localAnchorA: toPlanck(moved),
+        localAxisA: toPlanck(joint.axis_a),
+        ...(motor ? { enableMotor: true, motorSpeed: angle.motor_speed, maxMotorTorque: angle.motor_max_force } : {}),
+    });
+}
+
+/** A rod, a spring, or a rope: the library bounds a distance from above alone. */
+function distance(joint, keys, springAt) {
     const [axis] = joint.axes;
     const refuse = (what, documentation = '') => {
         throw new rg.Unsupported(what, documentation, `joint '${joint.name}'`);
     };
-    if (axis.stiffness > 0 || axis.damping > 0) refuse('spring of a distance');
+    const spring = springAt(axis);
+    if (spring && axis.mode === 'limited') refuse('limits and spring of one distance');
+    if (spring) return new DistanceJoint({ ...keys, length: axis.target, ...softness(spring) });
     if (axis.mode === 'locked') return new DistanceJoint({ ...keys, length: joint.length });
     if (axis.mode === 'free') refuse('a distance that is free');
     if (axis.lower > 0 || axis.upper === null)

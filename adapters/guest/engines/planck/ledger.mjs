@@ -26,5 +26,9 @@ export function ledgerOf({ scenario, settings, reach }) {
     );
     if (scenario.bodies.some((body) => body.shapes.some((shape) => shape.shape === 'half_plane')))
         lines.push(rg.approximate('half_plane', 'unbounded', `a box of side ${2 * reach} m`, 'the library has no half-plane'));
+    if (scenario.joints.some(({ axes }) => axes.some((axis) => axis.stiffness > 0)))
+        lines.push(
+            rg.approximate('springs', 'of constant stiffness', 'of constant frequency', "the library's springs follow the mass of their coordinate"),
+        );
     return lines;
 }

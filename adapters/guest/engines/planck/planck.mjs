@@ -13,7 +13,10 @@ const capabilities = {
     dynamics: true,
     dimensions: [2],
     shapes: ['circle', 'box', 'polygon', 'half_plane', 'segment', 'chain'],
-    joints: ['hinge', 'hinge.limit', 'hinge.motor', 'slider', 'slider.limit', 'slider.motor', 'fixed', 'distance', 'distance.limit'],
+    joints: [
+        ...['hinge', 'hinge.limit', 'hinge.motor', 'slider', 'slider.limit', 'slider.motor', 'fixed'],
+        ...['distance', 'distance.limit', 'distance.spring', 'wheel', 'wheel.motor', 'wheel.spring'],
+    ],
     contact_impulses: true,
     kinematic_bodies: true,
     damping: true,

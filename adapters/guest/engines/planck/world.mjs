@@ -37,7 +37,9 @@ export class PlanckWorld extends rg.World {
         this.reach = reachOf(scenario);
         this.bodies = scenario.bodies.map((body, i) => this.addBody(body, i));
         const outside = () => this.world.createBody();
-        addJoints(scenario, this.bodies, outside, (...joint) => this.world.createJoint(jointOf(...joint)));
+        addJoints(scenario, this.bodies, outside, (...joint) =>
+            this.world.createJoint(jointOf(scenario, ...joint)),
+        );
     }
 
     /** The library's settings are of the whole process: set again for every step. */
