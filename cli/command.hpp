@@ -57,6 +57,7 @@ void addCompare(CLI::App& app, Action& action);
 void addHistory(CLI::App& app, Action& action);
 void addRecord(CLI::App& app, Action& action);
 void addImport(CLI::App& app, Action& action);
+void addExport(CLI::App& app, Action& action);
 void addDraw(CLI::App& app, Action& action);
 void addFit(CLI::App& app, Action& action);
 void addView(CLI::App& app, Action& action);

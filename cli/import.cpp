@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/import_model.hpp"
+#include "models/common/formats.hpp"
 #include "validation/import/importer.hpp"
 #include "validation/results/counted.hpp"
 
@@ -13,11 +15,13 @@ namespace rigor::cli {
 namespace {
 
 struct ImportArguments {
+    ModelArguments model;
     std::string dataSet, from, out, select = "all", train;
     std::vector<std::string> options;
 };
 
 int runImport(const ImportArguments& a) {
+    if (isModelFormat(a.dataSet)) return importModel(a.dataSet, a.from, a.out, a.model);
     const auto& importer = validation::findImporter(a.dataSet);
     std::map<std::string, std::string> given;
     for (const auto& option : a.options) {
@@ -48,7 +52,10 @@ int runImport(const ImportArguments& a) {
 }
 
 std::string footer() {
-    std::string text = "Data sets and their --option KEY=VALUE (the first is the default):\n";
+    std::string text = "Model files:\n";
+    for (const auto& format : models::formats())
+        text += "  " + std::string(format.name) + ": " + format.title + "\n";
+    text += "Data sets and their --option KEY=VALUE (the first is the default):\n";
     for (const auto& entry : validation::importerTable()) {
         text += "  " + std::string(entry.name) + ": " + entry.title + "\n    " + entry.source + "\n";
         for (const auto& choice : entry.choices())
@@ -63,17 +70,21 @@ std::string footer() {
 void addImport(CLI::App& app, Action& action) {
     auto a = std::make_shared<ImportArguments>();
     auto* command =
-        app.add_subcommand("import", "Turn measured data into scenarios to score and fit engines on");
-    command->add_option("DATASET", a->dataSet, "Which data set, see below")->required();
-    command->add_option("DIR", a->from, "Its folder, or one that has a folder of its name inside")
+        app.add_subcommand("import", "Turn models of other simulators, or measured data, into scenarios");
+    command->add_option("KIND", a->dataSet, "Which model format or data set, see below")->required();
+    command
+        ->add_option("FROM", a->from,
+                     "The model file; or the folder of the data set, or one that has a folder of its name inside")
         ->required();
-    command->add_option("--out", a->out, "New folder for the scenarios (default: the data set's name)");
+    command->add_option("--out", a->out, "The scenario's file (default: standard output); or a new folder for the scenarios of a data set "
+                        "(default: its name)");
     command->add_option("--select", a->select, "Only the recordings of this CSV file (column id), or all");
     command->add_option("--train", a->train,
                         "Recordings to fit on: a CSV file (column id) or a share; the others are scored. "
                         "Default: half, spread evenly");
     command->add_option("--option", a->options, "A choice of the data set's: KEY=VALUE")
         ->allow_extra_args(false);
+    addModelOptions(*command, a->model);
     command->footer(footer());
     command->callback([a, &action] { action = [a] { return runImport(*a); }; });
 }

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
         argc, argv,
         {{addValidate, addRun,   addBench,   addList,  addStudy,   addPieces,  addCollide, addFreeze,
           addSolve,    addCheck, addCompare, addMerge, addSweep,   addHistory, addReport,  addRecord,
-          addImport,   addFit,   addView,    addDraw,  addConform, addNew},
+          addImport,   addExport, addFit,    addView,  addDraw,    addConform, addNew},
          {{"__bench", benchChild},
           {"__collide", collideChild},
           {"__fit", fitChild},

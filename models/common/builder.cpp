@@ -56,10 +56,6 @@ SceneBuilder::SceneBuilder(const ReadOptions& options, Report& report, const std
     scene.gravity = {0.0, 0.0, -9.81};
 }
 
-Pose SceneBuilder::fromZ() {
-    return {{}, {std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0}};
-}
-
 std::string SceneBuilder::nameFor(const std::string& wanted, std::map<std::string, int>& taken,
                                   const Place& place) {
     const std::string clean = cleaned(wanted, "unnamed");
@@ -258,17 +254,20 @@ Answer SceneBuilder::finish() {
     } catch (const scenario::LoadError& error) {
         for (const scenario::Problem& p : error.problems()) {
             Place place{file, 0};
-            const auto placeOf = [&](const char* prefix, const std::vector<Place>& places) {
-                const std::string_view start(prefix);
+            std::string what = p.pointer;
+            const auto placeOf = [&](const std::string& kind, const std::vector<Place>& places, const auto& parts) {
+                const std::string start = "/" + kind + "/";
                 std::size_t index = 0;
                 if (!p.pointer.starts_with(start)) return;
                 const char* begin = p.pointer.data() + start.size();
-                std::from_chars(begin, p.pointer.data() + p.pointer.size(), index);
-                if (index < places.size()) place = places[index];
+                const char* end = std::from_chars(begin, p.pointer.data() + p.pointer.size(), index).ptr;
+                if (index >= places.size()) return;
+                place = places[index];
+                what = "'" + parts[index].name + "'" + end;
             };
-            placeOf("/bodies/", bodyPlaces);
-            placeOf("/joints/", jointPlaces);
-            answer.report.refuse(p.pointer, place, "found " + p.found + ", expected " + p.expected);
+            placeOf("bodies", bodyPlaces, scene.bodies);
+            placeOf("joints", jointPlaces, scene.joints);
+            answer.report.refuse(what, place, "found " + p.found + ", expected " + p.expected);
         }
     }
     return answer;

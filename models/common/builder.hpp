@@ -6,6 +6,7 @@
 // are those of the model (z up); gravity is a vector.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <map>
 #include <string>
@@ -61,7 +62,7 @@ class SceneBuilder {
     Answer finish();
 
     /// Turns local y, the axis of round shapes in scenarios, to z.
-    static scenario::Pose fromZ();
+    static scenario::Pose fromZ() { return {{}, {std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0}}; }
 
   private:
     std::string nameFor(const std::string& wanted, std::map<std::string, int>& taken, const Place& place);

@@ -53,11 +53,15 @@ bool elementMatches(const char* pattern, const std::string& parent, const std::s
 }
 
 bool isHarmless(const ElementRule& rule, const std::string& value) {
-    if (*rule.harmless == '\0') return false;
-    if (value == rule.harmless) return true;
-    std::vector<double> given, expected;
-    return readNumbers(value, given) && readNumbers(rule.harmless, expected) && !given.empty() &&
-           given.size() <= expected.size() && std::equal(given.begin(), given.end(), expected.begin());
+    std::istringstream alternatives(rule.harmless);
+    for (std::string one; std::getline(alternatives, one, '|');) {
+        if (value == one) return true;
+        std::vector<double> given, expected;
+        if (readNumbers(value, given) && readNumbers(one, expected) && !given.empty() &&
+            given.size() <= expected.size() && std::equal(given.begin(), given.end(), expected.begin()))
+            return true;
+    }
+    return false;
 }
 
 bool isNotANumber(const std::string& value) {

@@ -28,7 +28,8 @@ enum class Verdict {
 };
 
 /// `element` is "name" or "parent/name", with "*" for any name; `attribute` "" is the element itself (in SDF
-/// and URDF also its text). A value equal to `harmless`, number by number, changes nothing.
+/// and URDF also its text). A value equal to `harmless`, number by number, changes nothing
+/// (several with | between).
 struct ElementRule {
     const char* element;
     const char* attribute;

@@ -19,6 +19,7 @@ using scenario::JointType;
 using scenario::kNone;
 using scenario::Vec3;
 
+constexpr double kUnlimited = 1e6;       ///< limits beyond it are none
 constexpr double kSameDirection = 1e-9;  ///< largest sine or cosine that counts as zero
 enum Coordinate : std::size_t { kX, kY, kZ, kTwist, kSwingY, kSwingZ };
 
@@ -104,8 +105,9 @@ class Joints {
         to.mode = AxisMode::Free;
         if (isLimited(joint)) {
             to.mode = AxisMode::Limited;
-            to.lower = c_.m.jnt_range[2 * joint] - start;
-            to.upper = c_.m.jnt_range[2 * joint + 1] - start;
+            const double lower = c_.m.jnt_range[2 * joint], upper = c_.m.jnt_range[2 * joint + 1];
+            if (lower > -kUnlimited) to.lower = lower - start;
+            if (upper < kUnlimited) to.upper = upper - start;
         }
         if (hasSpring(joint)) {
             to.stiffness = c_.m.jnt_stiffness[joint];

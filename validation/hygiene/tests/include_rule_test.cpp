@@ -59,6 +59,7 @@ const std::vector<Rule>& rules() {
         {"scenarios/generators", {"scenarios/json/", "scenarios/model/"}},
         {"scenarios/loader",
          {"scenarios/generators/", "scenarios/json/", "scenarios/model/", "scenarios/schema/"}},
+        {"models", {"models/", "scenarios/"}},
         {"adapters/interface", {"scenarios/model/"}},
         {"adapters/conformance", {"adapters/interface/", "scenarios/"}},
         {"adapters/rigor/python",
@@ -85,8 +86,8 @@ const std::vector<Rule>& rules() {
          {"reports/", "validation/results/", "validation/statistics/", "reports/tests/browser_tool.cpp"}},
         // `rigor draw` draws the scenes of all engines with the lines of the in-house one.
         {"cli",
-         {"cli/", "engine/", "adapters/interface/", "adapters/rigor/convert_shape.hpp", "scenarios/",
-          "validation/", "reports/"}}};
+         {"cli/", "engine/", "adapters/interface/", "adapters/rigor/convert_shape.hpp", "models/",
+          "scenarios/", "validation/", "reports/"}}};
     return table;
 }
 
