@@ -56,10 +56,14 @@ int runExport(const ExportArguments& a) {
 void addExport(CLI::App& app, Action& action) {
     auto a = std::make_shared<ExportArguments>();
     auto* command = app.add_subcommand("export", "Write a scenario as a model of another simulator");
-    command->add_option("FORMAT", a->format, "mjcf (MuJoCo) or urdf")->required()->check(CLI::IsMember({"mjcf", "urdf"}));
+    command->add_option("FORMAT", a->format, "mjcf (MuJoCo) or urdf")
+        ->required()
+        ->check(CLI::IsMember({"mjcf", "urdf"}));
     command->add_option("SCENARIO", a->scenario, "Name or file of the scenario")->required();
     command->add_option("--out", a->out, "The model's file (default: standard output)");
-    command->add_option("--without", a->without, "Features to leave out, as a refusal names them: restitution,events")
+    command
+        ->add_option("--without", a->without,
+                     "Features to leave out, as a refusal names them: restitution,events")
         ->delimiter(',');
     command->add_option("--set", a->overrides, "Override a value: KEY=VALUE, e.g. bodies.block.mass=2")
         ->allow_extra_args(false);

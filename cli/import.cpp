@@ -73,11 +73,14 @@ void addImport(CLI::App& app, Action& action) {
         app.add_subcommand("import", "Turn models of other simulators, or measured data, into scenarios");
     command->add_option("KIND", a->dataSet, "Which model format or data set, see below")->required();
     command
-        ->add_option("FROM", a->from,
-                     "The model file; or the folder of the data set, or one that has a folder of its name inside")
+        ->add_option(
+            "FROM", a->from,
+            "The model file; or the folder of the data set, or one that has a folder of its name inside")
         ->required();
-    command->add_option("--out", a->out, "The scenario's file (default: standard output); or a new folder for the scenarios of a data set "
-                        "(default: its name)");
+    command->add_option(
+        "--out", a->out,
+        "The scenario's file (default: standard output); or a new folder for the scenarios of a data set "
+        "(default: its name)");
     command->add_option("--select", a->select, "Only the recordings of this CSV file (column id), or all");
     command->add_option("--train", a->train,
                         "Recordings to fit on: a CSV file (column id) or a share; the others are scored. "

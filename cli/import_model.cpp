@@ -27,7 +27,8 @@ constexpr auto kLongest = std::chrono::minutes(5);
 
 fs::path readerOf(const models::Format& format) {
     const std::string name = std::string("rigor-read-") + format.name;
-    for (const fs::path& folder : {ownBinary().parent_path() / "readers", ownBinary().parent_path() / "../lib/rigor/readers"})
+    for (const fs::path& folder :
+         {ownBinary().parent_path() / "readers", ownBinary().parent_path() / "../lib/rigor/readers"})
         if (fs::exists(folder / name)) return folder / name;
     throw std::invalid_argument(std::string("this build reads no ") + format.name +
                                 " files: it lacks the Debian packages " + format.packages +
@@ -61,7 +62,8 @@ models::Answer runReader(const models::Format& format, const models::ReadOptions
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe can be made");
     const pid_t child = validation::startProgram(
-        {readerOf(format).string(), models::toJson(options).dump(), answerFile.string()}, ends[1], kMemoryMiB);
+        {readerOf(format).string(), models::toJson(options).dump(), answerFile.string()}, ends[1],
+        kMemoryMiB);
     close(ends[1]);
     std::string said;
     const auto deadline = std::chrono::steady_clock::now() + kLongest;
@@ -86,9 +88,10 @@ models::Answer runReader(const models::Format& format, const models::ReadOptions
         return answer;
     }
     const std::string last = validation::lastLine(said);
-    answer.report.refuse("file", {options.file.filename().string(), 0},
-                         isLate ? "its reader did not end within five minutes"
-                                : "its reader ended with " + validation::endingOf(status) + (last.empty() ? "" : ": " + last));
+    answer.report.refuse(
+        "file", {options.file.filename().string(), 0},
+        isLate ? "its reader did not end within five minutes"
+               : "its reader ended with " + validation::endingOf(status) + (last.empty() ? "" : ": " + last));
     return answer;
 }
 
@@ -96,11 +99,15 @@ models::Answer runReader(const models::Format& format, const models::ReadOptions
 
 void addModelOptions(CLI::App& command, ModelArguments& a) {
     auto* group = command.add_option_group("Models", "For mjcf, urdf, sdf and mesh");
-    group->add_option("--without", a.without, "Features to leave out, as a refusal names them: actuators,tendons")
+    group
+        ->add_option("--without", a.without,
+                     "Features to leave out, as a refusal names them: actuators,tendons")
         ->delimiter(',');
-    group->add_option("--assets", a.assets, "Other folders with files that the model refers to")->allow_extra_args(false);
+    group->add_option("--assets", a.assets, "Other folders with files that the model refers to")
+        ->allow_extra_args(false);
     group->add_option("--name", a.options.name, "Name of the scenario (default: the file's)");
-    group->add_option("--licence", a.options.licence, "Licence of the model (default: the file LICENSE beside or above it)");
+    group->add_option("--licence", a.options.licence,
+                      "Licence of the model (default: the file LICENSE beside or above it)");
     group->add_option("--duration", a.options.duration, "Duration of the scenario [s] (default 5)")
         ->check(CLI::Range(1e-6, 3600.0));
     group->add_option("--dt", a.dt, "Time step [s] (default: the model's, else 1/240)");
@@ -113,7 +120,8 @@ void addModelOptions(CLI::App& command, ModelArguments& a) {
         ->check(CLI::Range(1e-9, 1e9));
     group->add_option("--floor", a.floor, "Add a static half-space at this height [m]");
     group->add_flag("--fixed-base", a.options.fixedBase, "URDF: the root link does not move");
-    group->add_flag("--self-collision", a.options.selfCollision, "URDF: links of the robot collide with each other");
+    group->add_flag("--self-collision", a.options.selfCollision,
+                    "URDF: links of the robot collide with each other");
     group->add_flag("--hull", a.options.hull, "Take the convex hull of a mesh that moves and is not convex");
     group->add_flag("--static", a.options.isStatic, "Meshes: the mesh is the ground, of triangles");
     group->add_flag("--json", a.json, "The report as JSON on stdout");
@@ -123,7 +131,8 @@ bool isModelFormat(const std::string& word) {
     return models::findFormat(word) != nullptr;
 }
 
-int importModel(const std::string& format, const std::string& file, const std::string& out, ModelArguments a) {
+int importModel(const std::string& format, const std::string& file, const std::string& out,
+                ModelArguments a) {
     models::ReadOptions options = a.options;
     options.file = file;
     options.without = {a.without.begin(), a.without.end()};

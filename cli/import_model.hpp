@@ -27,6 +27,7 @@ void addModelOptions(CLI::App& command, ModelArguments& arguments);
 /// True for "mjcf", "urdf", ...
 bool isModelFormat(const std::string& word);
 /// Reads the model in a child process and writes the scenario to `out` ("": standard output). Returns the exit code.
-int importModel(const std::string& format, const std::string& file, const std::string& out, ModelArguments arguments);
+int importModel(const std::string& format, const std::string& file, const std::string& out,
+                ModelArguments arguments);
 
 }  // namespace rigor::cli

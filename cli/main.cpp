@@ -15,9 +15,9 @@ int main(int argc, char** argv) {
     using namespace rigor::validation;
     return runProgram(
         argc, argv,
-        {{addValidate, addRun,   addBench,   addList,  addStudy,   addPieces,  addCollide, addFreeze,
-          addSolve,    addCheck, addCompare, addMerge, addSweep,   addHistory, addReport,  addRecord,
-          addImport,   addExport, addFit,    addView,  addDraw,    addConform, addNew},
+        {{addValidate, addRun,    addBench,   addList,  addStudy, addPieces,  addCollide, addFreeze,
+          addSolve,    addCheck,  addCompare, addMerge, addSweep, addHistory, addReport,  addRecord,
+          addImport,   addExport, addFit,     addView,  addDraw,  addConform, addNew},
          {{"__bench", benchChild},
           {"__collide", collideChild},
           {"__fit", fitChild},

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "models/common/files.hpp"
+#include "models/common/text.hpp"
 #include "scenarios/json/problem.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "scenarios/loader/write.hpp"
@@ -23,7 +24,7 @@ using scenario::Vec3;
 namespace {
 
 constexpr std::size_t kLongestName = 64;
-constexpr double kMostFriction = 1e6;      ///< largest coefficient that a scenario takes
+constexpr double kMostFriction = 1e6;  ///< largest coefficient that a scenario takes
 constexpr double kUsualTimeStep = 1.0 / 240.0;
 
 std::string cleaned(const std::string& text, const std::string& empty) {
@@ -152,12 +153,14 @@ void SceneBuilder::writeMaterials() {
                               law.torsionalFriction == m.torsionalFriction &&
                               law.staticFriction == m.staticFriction;
             if (i == j && same) continue;
-            scene.pairs.push_back({static_cast<int>(i), static_cast<int>(j), limited(law.friction), law.restitution,
-                                   law.staticFriction, limited(law.rollingFriction), limited(law.torsionalFriction)});
+            scene.pairs.push_back({static_cast<int>(i), static_cast<int>(j), limited(law.friction),
+                                   law.restitution, law.staticFriction, limited(law.rollingFriction),
+                                   limited(law.torsionalFriction)});
         }
     if (!scene.pairs.empty())
         report_.changed("friction", {options_.file.filename().string(), 0},
-                        mixingText_ + ": written out as " + std::to_string(scene.pairs.size()) + " pairs");
+                        mixingText_ + ": written out as " + std::to_string(scene.pairs.size()) +
+                            (scene.pairs.size() == 1 ? " pair" : " pairs"));
 }
 
 void SceneBuilder::writeLayers() {
@@ -167,7 +170,8 @@ void SceneBuilder::writeLayers() {
     for (const ShapeClass& c : classes_)
         if (std::find(kinds.begin(), kinds.end(), c.kind) == kinds.end()) kinds.push_back(c.kind);
     const auto alike = [&](int a, int b) {
-        return std::all_of(kinds.begin(), kinds.end(), [&](int c) { return mayTouch_(a, c) == mayTouch_(b, c); }) &&
+        return std::all_of(kinds.begin(), kinds.end(),
+                           [&](int c) { return mayTouch_(a, c) == mayTouch_(b, c); }) &&
                mayTouch_(a, b) == mayTouch_(a, a);
     };
     std::vector<int> layers;  // the first class of each
@@ -178,16 +182,16 @@ void SceneBuilder::writeLayers() {
         if (same == layers.end()) layers.push_back(kind);
     }
     if (layers.size() > static_cast<std::size_t>(scenario::kMaxLayers)) {
-        if (!report_.leavesOut("contact_filters", "contact filters", {options_.file.filename().string(), 0},
-                               std::to_string(layers.size()) + " layers would be needed, a scenario has up to 16"))
-            return;
+        report_.leavesOut("contact_filters", "contact filters", {options_.file.filename().string(), 0},
+                          std::to_string(layers.size()) + " layers would be needed, a scenario has up to 16");
         return;
     }
     if (layers.size() == 1 && mayTouch_(layers[0], layers[0])) return;
     scene.layers = {scenario::kDefaultLayer};
     for (std::size_t i = 1; i < layers.size(); ++i) scene.layers.push_back("layer_" + std::to_string(i));
     for (const ShapeClass& c : classes_) {
-        auto& filter = scene.bodies[static_cast<std::size_t>(c.body)].shapes[static_cast<std::size_t>(c.shape)].filter;
+        auto& filter =
+            scene.bodies[static_cast<std::size_t>(c.body)].shapes[static_cast<std::size_t>(c.shape)].filter;
         const int own = layerOf[c.kind];
         filter.layers = 1u << own;
         bool all = true;
@@ -218,20 +222,23 @@ void SceneBuilder::header() {
     const std::string folder = std::filesystem::absolute(options_.file).parent_path().filename().string();
     scene.name = cleaned(options_.name.empty() ? options_.file.stem().string() : options_.name, "model");
     scene.title = options_.file.stem().string() + ", imported from " + format_;
-    scene.description = "Made by rigor import from " + folder + "/" + file + " (" + format_ + ", read by " + reader_ +
-                        "). The axes are the model's.";
+    scene.description = "Made by rigor import from " + folder + "/" + file + " (" + format_ + ", read by " +
+                        reader_ + "). The axes are the model's.";
     const Licence found = findLicence(options_.file);
     std::string licence = options_.licence;
     if (licence.empty() && !found.file.empty())
         licence = found.name.empty() ? "see " + found.file : found.name + " (" + found.file + ")";
     if (licence.empty()) {
         licence = "not known";
-        report_.changed("licence", {file, 0}, "no licence was found beside the model; --licence TEXT states it");
+        report_.changed("licence", {file, 0},
+                        "no licence was found beside the model; --licence TEXT states it");
     }
     scene.source = folder + "/" + file + "; licence: " + licence;
     scene.tags = {"imported"};
     scene.duration = options_.duration;
-    scene.timeSteps = {options_.timeStep > 0.0 ? options_.timeStep : timeStep_ > 0.0 ? timeStep_ : kUsualTimeStep};
+    scene.timeSteps = {options_.timeStep > 0.0 ? options_.timeStep
+                       : timeStep_ > 0.0       ? timeStep_
+                                               : kUsualTimeStep};
 }
 
 Answer SceneBuilder::finish() {
@@ -242,12 +249,13 @@ Answer SceneBuilder::finish() {
     const auto moving = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                       [](const auto& b) { return b.type == BodyType::Dynamic; });
     const std::string file = options_.file.filename().string();
-    if (moving == 0) report_.refuse("model", {file, 0}, "no body of it can move: there is nothing to simulate");
+    if (moving == 0)
+        report_.refuse("model", {file, 0}, "no body of it can move: there is nothing to simulate");
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
         if (scene.bodies[i].type == BodyType::Dynamic) scene.observed.push_back(static_cast<int>(i));
     Answer answer{"", report_};
     if (report_.isRefused()) return answer;
-    const std::string text = scenario::scenarioText(scene);
+    const std::string text = tidied(scenario::scenarioText(scene));
     try {
         (void)scenario::loadScenarioText(text, scene.name + ".json");
         answer.scenario = text;
@@ -255,7 +263,8 @@ Answer SceneBuilder::finish() {
         for (const scenario::Problem& p : error.problems()) {
             Place place{file, 0};
             std::string what = p.pointer;
-            const auto placeOf = [&](const std::string& kind, const std::vector<Place>& places, const auto& parts) {
+            const auto placeOf = [&](const std::string& kind, const std::vector<Place>& places,
+                                     const auto& parts) {
                 const std::string start = "/" + kind + "/";
                 std::size_t index = 0;
                 if (!p.pointer.starts_with(start)) return;

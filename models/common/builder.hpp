@@ -22,16 +22,17 @@ struct Surface {
     double friction = 0.0;
     double restitution = 0.0;
     double rolling = 0.0, torsional = 0.0;  ///< [m]
-    int contactDimension = 3;  ///< MJCF: 1 no friction, 3 sliding, 4 and torsion, 6 and rolling
-    int priority = 0;          ///< MJCF: the surface of higher priority gives the pair's law
-    int own = 0;               ///< not 0: a surface that explicit pairs name
-    double staticFriction = 0.0;  ///< 0: the same as friction
+    int contactDimension = 3;               ///< MJCF: 1 no friction, 3 sliding, 4 and torsion, 6 and rolling
+    int priority = 0;                       ///< MJCF: the surface of higher priority gives the pair's law
+    int own = 0;                            ///< not 0: a surface that explicit pairs name
+    double staticFriction = 0.0;            ///< 0: the same as friction
     friend bool operator==(const Surface&, const Surface&) = default;
 };
 
 class SceneBuilder {
   public:
-    SceneBuilder(const ReadOptions& options, Report& report, const std::string& format, const std::string& reader);
+    SceneBuilder(const ReadOptions& options, Report& report, const std::string& format,
+                 const std::string& reader);
 
     scenario::Scenario scene;
     std::vector<Place> bodyPlaces, jointPlaces;

@@ -65,10 +65,11 @@ fs::path AssetFolders::find(const std::string& reference, const Place& place, co
         if (isInside(file)) return file;
         outside = true;
     }
-    throw Refusal(place, outside ? "'" + reference +
-                                       "' lies outside the folder of the model; --assets FOLDER allows another"
-                                 : "there is no file '" + reference +
-                                       "' beside the model; --assets FOLDER names other places");
+    throw Refusal(
+        place,
+        outside
+            ? "'" + reference + "' lies outside the folder of the model; --assets FOLDER allows another"
+            : "there is no file '" + reference + "' beside the model; --assets FOLDER names other places");
 }
 
 Licence findLicence(const fs::path& model) {

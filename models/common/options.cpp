@@ -56,7 +56,8 @@ ReadOptions optionsFromJson(const json& j) {
 
 int runReader(int argc, char** argv, Answer (*read)(const ReadOptions&)) {
     if (argc != 3) {
-        std::fprintf(stderr, "usage: %s OPTIONS_JSON ANSWER_FILE; meant to be started by 'rigor import'\n", argv[0]);
+        std::fprintf(stderr, "usage: %s OPTIONS_JSON ANSWER_FILE; meant to be started by 'rigor import'\n",
+                     argv[0]);
         return 2;
     }
     const ReadOptions options = optionsFromJson(json::parse(argv[1]));

@@ -28,11 +28,11 @@ struct ReadOptions {
     double scale = 1.0;                         ///< of a mesh file: metres per unit
     std::string keyframe;                       ///< MJCF: name or number of the start; "": none
     bool fixedBase = false;                     ///< URDF: the root link does not move
-    bool selfCollision = false;                 ///< URDF: links of one robot collide unless a joint connects them
-    bool hull = false;                          ///< moving meshes that are not convex: their convex hull
-    bool isStatic = false;                      ///< a mesh file is the ground, of triangles
-    bool hasFloor = false;                      ///< adds a static half-space, up is +z ...
-    double floor = 0.0;                         ///< ... at this height [m]
+    bool selfCollision = false;  ///< URDF: links of one robot collide unless a joint connects them
+    bool hull = false;           ///< moving meshes that are not convex: their convex hull
+    bool isStatic = false;       ///< a mesh file is the ground, of triangles
+    bool hasFloor = false;       ///< adds a static half-space, up is +z ...
+    double floor = 0.0;          ///< ... at this height [m]
 };
 
 nlohmann::json toJson(const ReadOptions& options);

@@ -26,7 +26,8 @@ std::string readWhole(const std::filesystem::path& file, const std::string& show
     std::ifstream in(file, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(in), {}};
     if (!in.good() && !in.eof()) throw Refusal({shown, 0}, "the file can not be read");
-    if (text.find('\0') != std::string::npos) throw Refusal({shown, 0}, "not a text file: it has a zero byte");
+    if (text.find('\0') != std::string::npos)
+        throw Refusal({shown, 0}, "not a text file: it has a zero byte");
     return text;
 }
 
@@ -77,7 +78,8 @@ bool isNotANumber(const std::string& value) {
 class Judge {
   public:
     Judge(XmlFile& file, std::span<const ElementRule> rules, Report& report,
-          const std::function<bool(const std::string&, const std::string&)>& knows, const std::string& library)
+          const std::function<bool(const std::string&, const std::string&)>& knows,
+          const std::string& library)
         : file_(file), rules_(rules), report_(report), knows_(knows), library_(library) {}
 
     /// True if the element must be removed.
@@ -116,13 +118,15 @@ class Judge {
         const ElementRule* best = nullptr;
         const auto weight = [](const ElementRule& r) {
             const std::string_view e(r.element);
-            return (e.find('*') == std::string_view::npos ? 4 : 0) + (e.find('/') != std::string_view::npos ? 2 : 0) +
+            return (e.find('*') == std::string_view::npos ? 4 : 0) +
+                   (e.find('/') != std::string_view::npos ? 2 : 0) +
                    (std::string_view(r.attribute) != "*" ? 1 : 0);
         };
         for (const ElementRule& r : rules_) {
             const bool same = std::string_view(r.attribute) == attribute ||
                               (std::string_view(r.attribute) == "*" && !attribute.empty());
-            if (same && elementMatches(r.element, parent, name) && (!best || weight(r) > weight(*best))) best = &r;
+            if (same && elementMatches(r.element, parent, name) && (!best || weight(r) > weight(*best)))
+                best = &r;
         }
         return best;
     }
@@ -168,11 +172,16 @@ class Judge {
 
 void appendEscaped(std::string& out, const char* text) {
     for (; *text; ++text) {
-        if (*text == '<') out += "&lt;";
-        else if (*text == '&') out += "&amp;";
-        else if (*text == '"') out += "&quot;";
-        else if (*text == '\n') out += ' ';
-        else out += *text;
+        if (*text == '<')
+            out += "&lt;";
+        else if (*text == '&')
+            out += "&amp;";
+        else if (*text == '"')
+            out += "&quot;";
+        else if (*text == '\n')
+            out += ' ';
+        else
+            out += *text;
     }
 }
 
@@ -266,7 +275,8 @@ void applyRules(XmlFile& file, std::span<const ElementRule> rules, Report& repor
                 const std::function<bool(const std::string&, const std::string&)>& knows,
                 const std::string& library) {
     Judge judge(file, rules, report, knows, library);
-    if (judge.element(*file.root(), "")) throw Refusal(file.place(*file.root()), "nothing of the file can be read");
+    if (judge.element(*file.root(), ""))
+        throw Refusal(file.place(*file.root()), "nothing of the file can be read");
 }
 
 std::string textOnSameLines(const XMLElement& root) {

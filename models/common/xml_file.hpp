@@ -74,9 +74,10 @@ class XmlFile {
 /// Judges every element below `root` by the rules; what is left out, and what has no physics, is removed from the
 /// document. `knows`, where given, tells whether the library that reads on knows the attribute ("" is the element); a
 /// thing to be read that it does not know is refused as newer than `library`.
-void applyRules(XmlFile& file, std::span<const ElementRule> rules, Report& report,
-                const std::function<bool(const std::string& element, const std::string& attribute)>& knows = {},
-                const std::string& library = "");
+void applyRules(
+    XmlFile& file, std::span<const ElementRule> rules, Report& report,
+    const std::function<bool(const std::string& element, const std::string& attribute)>& knows = {},
+    const std::string& library = "");
 
 /// The document as text in which every element stands on its line of the file, where the order allows it.
 std::string textOnSameLines(const tinyxml2::XMLElement& root);

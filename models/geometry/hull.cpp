@@ -24,18 +24,19 @@ HullOfMesh hullOf(const std::vector<scenario::Vec3>& points, const Place& place)
     char options[] = "qhull Pp";
     HullOfMesh hull;
     const int failed = points.size() < 4 ? 1
-                                         : qh_new_qhull(qh, 3, static_cast<int>(points.size()), coordinates.data(), 0,
-                                                        options, nullptr, silent);
+                                         : qh_new_qhull(qh, 3, static_cast<int>(points.size()),
+                                                        coordinates.data(), 0, options, nullptr, silent);
     if (failed == 0) {
         vertexT* vertex;
-        FORALLvertices hull.corners.push_back(points[static_cast<std::size_t>(qh_pointid(qh, vertex->point))]);
+        FORALLvertices hull.corners.push_back(
+            points[static_cast<std::size_t>(qh_pointid(qh, vertex->point))]);
         qh_getarea(qh, qh->facet_list);
         hull.volume = qh->totvol;
         for (const auto& p : points) {
             double depth = 1e300;
             facetT* facet;
-            FORALLfacets depth = std::min(
-                depth, -(facet->normal[0] * p.x + facet->normal[1] * p.y + facet->normal[2] * p.z + facet->offset));
+            FORALLfacets depth = std::min(depth, -(facet->normal[0] * p.x + facet->normal[1] * p.y +
+                                                   facet->normal[2] * p.z + facet->offset));
             hull.dent = std::max(hull.dent, depth);
         }
     }

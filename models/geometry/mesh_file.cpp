@@ -44,7 +44,8 @@ struct Collected {
     }
 };
 
-void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, const Vec3& scale, Collected& out) {
+void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, const Vec3& scale,
+             Collected& out) {
     const aiMatrix4x4 transform = above * node.mTransformation;
     const bool isPlain = transform.IsIdentity();
     for (unsigned m = 0; m < node.mNumMeshes; ++m) {
@@ -56,13 +57,15 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above,
             for (unsigned k = 0; k < 3; ++k) {
                 aiVector3D v = mesh.mVertices[face.mIndices[k]];
                 if (!isPlain) v = transform * v;
-                triangle[k] = out.vertex({asWritten(v.x) * scale.x, asWritten(v.y) * scale.y, asWritten(v.z) * scale.z});
+                triangle[k] = out.vertex(
+                    {asWritten(v.x) * scale.x, asWritten(v.y) * scale.y, asWritten(v.z) * scale.z});
             }
             if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
                 out.triangles.push_back(triangle);
         }
     }
-    for (unsigned c = 0; c < node.mNumChildren; ++c) collect(scene, *node.mChildren[c], transform, scale, out);
+    for (unsigned c = 0; c < node.mNumChildren; ++c)
+        collect(scene, *node.mChildren[c], transform, scale, out);
 }
 
 /// Pieces that share no vertex.
@@ -128,7 +131,9 @@ void addTriangles(SceneBuilder& builder, Report& report, int body, const std::ve
         return norm(cross(a, b)) / longest <= 2e-5 * sizeOf(whole.vertices);
     });
     if (whole.triangles.size() < before)
-        report.changed("mesh", place, std::to_string(before - whole.triangles.size()) + " triangles without area are left out");
+        report.changed(
+            "mesh", place,
+            std::to_string(before - whole.triangles.size()) + " triangles without area are left out");
     if (const std::string problem = scenario::surfaceProblem(whole); !problem.empty())
         return report.refuse("mesh", place, problem);
     builder.addShape(body, whole, pose, surface, kind);
@@ -139,11 +144,11 @@ void addTriangles(SceneBuilder& builder, Report& report, int body, const std::ve
 std::vector<MeshPart> readMesh(const std::filesystem::path& file, const Vec3& scale, const Place& place) {
     Assimp::Importer importer;
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_LINE | aiPrimitiveType_POINT);
-    const aiScene* scene =
-        importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices);
+    const aiScene* scene = importer.ReadFile(
+        file.string(), aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices);
     if (!scene || !scene->mRootNode)
-        throw Refusal(place, "assimp can not read the mesh '" + file.filename().string() + "': " +
-                                 importer.GetErrorString());
+        throw Refusal(place, "assimp can not read the mesh '" + file.filename().string() +
+                                 "': " + importer.GetErrorString());
     Collected all;
     collect(*scene, *scene->mRootNode, {}, scale, all);
     const std::string name = file.filename().string();
@@ -161,30 +166,35 @@ bool isConvex(const MeshPart& part, const HullOfMesh& hull) {
 }
 
 void addMesh(SceneBuilder& builder, Report& report, int body, const std::vector<MeshPart>& parts,
-             const scenario::Pose& pose, const Surface& surface, int kind, bool takeHull, const Place& place) {
+             const scenario::Pose& pose, const Surface& surface, int kind, bool takeHull,
+             const Place& place) {
     if (builder.scene.bodies[static_cast<std::size_t>(body)].type == scenario::BodyType::Static)
         return addTriangles(builder, report, body, parts, pose, surface, kind, place);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const HullOfMesh hull = hullOf(parts[i].vertices, place);
-        const std::string which = parts.size() > 1 ? "part " + std::to_string(i + 1) + " of the mesh" : "the mesh";
+        const std::string which =
+            parts.size() > 1 ? "part " + std::to_string(i + 1) + " of the mesh" : "the mesh";
         if (!isConvex(parts[i], hull)) {
             const std::string why = which + " is open or not convex (its hull has " +
                                     std::to_string(100.0 * (1.0 - volumeOf(parts[i]) / hull.volume)) +
                                     " % more volume)";
             if (!takeHull) {
-                report.refuse("mesh", place, why + " and its body moves; --hull takes the convex hull of each part");
+                report.refuse("mesh", place,
+                              why + " and its body moves; --hull takes the convex hull of each part");
                 continue;
             }
             report.changed("mesh", place, why + ": its convex hull");
         }
         if (hull.corners.size() > kMostHullVertices)
-            report.refuse("mesh", place, "the convex hull of " + which + " has " + std::to_string(hull.corners.size()) +
-                                             " corners; a scenario's has up to 64");
+            report.refuse("mesh", place,
+                          "the convex hull of " + which + " has " + std::to_string(hull.corners.size()) +
+                              " corners; a scenario's has up to 64");
         else
             builder.addShape(body, scenario::ConvexHull{hull.corners}, pose, surface, kind);
     }
     if (parts.size() > 1)
-        report.changed("mesh", place, "its " + std::to_string(parts.size()) + " connected parts are hulls of one body");
+        report.changed("mesh", place,
+                       "its " + std::to_string(parts.size()) + " connected parts are hulls of one body");
 }
 
 }  // namespace rigor::models

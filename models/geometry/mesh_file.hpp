@@ -13,7 +13,8 @@ namespace rigor::models {
 using MeshPart = scenario::TriangleMesh;
 
 /// The parts of a mesh file, every coordinate times `scale` [m per unit]. Throws Refusal.
-std::vector<MeshPart> readMesh(const std::filesystem::path& file, const scenario::Vec3& scale, const Place& place);
+std::vector<MeshPart> readMesh(const std::filesystem::path& file, const scenario::Vec3& scale,
+                               const Place& place);
 
 struct HullOfMesh {
     std::vector<scenario::Vec3> corners;

@@ -4,6 +4,7 @@
 // The reader of mesh files: one body of convex hulls that falls, or with --static the ground, onto which a ball falls.
 #include <algorithm>
 
+#include "models/common/text.hpp"
 #include "models/geometry/mesh_file.hpp"
 
 namespace rigor::models {
@@ -21,9 +22,9 @@ Answer read(const ReadOptions& options) {
     const auto parts = readMesh(options.file, scale, place);
     SceneBuilder builder(options, report, "a mesh", "assimp");
     builder.scene.gravity = {0.0, -9.81, 0.0};
-    report.changed("mesh", place, "a mesh file has no physics: +y is up, friction " +
-                                      std::to_string(options.friction) + ", density " +
-                                      std::to_string(options.density) + " kg/m3");
+    report.changed("mesh", place,
+                   "a mesh file has no physics: +y is up, friction " + digits({options.friction}) +
+                       ", density " + digits({options.density}) + " kg/m3");
     const Surface surface{options.friction, 0.0, 0.0, 0.0, 6, 0, 0};
     const std::string name = options.file.stem().string();
     Body body;

@@ -96,7 +96,8 @@ class Geoms {
         const Body& target = c_.builder.scene.bodies[static_cast<std::size_t>(to)];
         const Pose pose = inverse(target.pose) * worldPose(c_, body) *
                           Pose{c_.point(c_.m.geom_pos, geom), c_.turn(c_.m.geom_quat, geom)};
-        const bool isSeenOnly = c_.m.geom_contype[geom] == 0 && c_.m.geom_conaffinity[geom] == 0 && !isInPair(geom);
+        const bool isSeenOnly =
+            c_.m.geom_contype[geom] == 0 && c_.m.geom_conaffinity[geom] == 0 && !isInPair(geom);
         addGeometry(geom, to, target.type, pose, isSeenOnly ? -1 : geom);
     }
 
@@ -108,7 +109,13 @@ class Geoms {
     }
     Surface surface(int geom) const {
         const Vec3 f = c_.point(c_.m.geom_friction, geom);
-        return {f.x, 0.0, f.z, f.y, c_.m.geom_condim[geom], c_.m.geom_priority[geom], isInPair(geom) ? geom + 1 : 0};
+        return {f.x,
+                0.0,
+                f.z,
+                f.y,
+                c_.m.geom_condim[geom],
+                c_.m.geom_priority[geom],
+                isInPair(geom) ? geom + 1 : 0};
     }
     void addGeometry(int geom, int to, BodyType type, const Pose& pose, int kind) {
         const Vec3 size = c_.point(c_.m.geom_size, geom);
@@ -120,23 +127,31 @@ class Geoms {
             case mjGEOM_PLANE:
                 if (moves) return c_.report.refuse("<geom> type", place, "a plane on a moving body");
                 return b.addShape(to, scenario::HalfSpace{{0.0, 0.0, 1.0}, 0.0}, pose, law, kind);
-            case mjGEOM_SPHERE: return b.addShape(to, scenario::Sphere{size.x}, pose, law, kind);
-            case mjGEOM_CAPSULE: return b.addRoundZ(to, scenario::Capsule{size.x, size.y}, pose, law, kind);
-            case mjGEOM_CYLINDER: return b.addRoundZ(to, scenario::Cylinder{size.x, size.y}, pose, law, kind);
-            case mjGEOM_ELLIPSOID: return b.addShape(to, scenario::Ellipsoid{size}, pose, law, kind);
-            case mjGEOM_BOX: return b.addShape(to, scenario::Box{size}, pose, law, kind);
+            case mjGEOM_SPHERE:
+                return b.addShape(to, scenario::Sphere{size.x}, pose, law, kind);
+            case mjGEOM_CAPSULE:
+                return b.addRoundZ(to, scenario::Capsule{size.x, size.y}, pose, law, kind);
+            case mjGEOM_CYLINDER:
+                return b.addRoundZ(to, scenario::Cylinder{size.x, size.y}, pose, law, kind);
+            case mjGEOM_ELLIPSOID:
+                return b.addShape(to, scenario::Ellipsoid{size}, pose, law, kind);
+            case mjGEOM_BOX:
+                return b.addShape(to, scenario::Box{size}, pose, law, kind);
             case mjGEOM_HFIELD:
                 if (moves) return c_.report.refuse("<geom> type", place, "a height field on a moving body");
-                return b.addShape(to, heightField(c_.m, c_.m.geom_dataid[geom]), pose * Pose{{}, {0.5, 0.5, 0.5, 0.5}},
-                                  law, kind);
-            case mjGEOM_MESH: return addMesh(geom, to, moves, pose, kind, place);
-            default: return c_.report.refuse("<geom> type", place, "a kind of shape that is not read");
+                return b.addShape(to, heightField(c_.m, c_.m.geom_dataid[geom]),
+                                  pose * Pose{{}, {0.5, 0.5, 0.5, 0.5}}, law, kind);
+            case mjGEOM_MESH:
+                return addMesh(geom, to, moves, pose, kind, place);
+            default:
+                return c_.report.refuse("<geom> type", place, "a kind of shape that is not read");
         }
     }
     void addMesh(int geom, int to, bool moves, const Pose& pose, int kind, const Place& place) {
         const int mesh = c_.m.geom_dataid[geom];
         if (kind < 0) return c_.report.noPhysics("<geom> mesh", place, "a mesh that collides with nothing");
-        if (c_.m.mesh_graphadr[mesh] < 0) return c_.report.refuse("<geom> mesh", place, "a mesh without a convex hull");
+        if (c_.m.mesh_graphadr[mesh] < 0)
+            return c_.report.refuse("<geom> mesh", place, "a mesh without a convex hull");
         const auto hull = hullOf(c_.m, mesh);
         if (hull.vertices.size() <= kMostHullVertices) {
             c_.report.changed("<geom> mesh", place, "its convex hull, with which MuJoCo collides it");
@@ -179,7 +194,8 @@ void addBodies(Conversion& c) {
             c.bodyOf.push_back(c.bodyOf[static_cast<std::size_t>(c.m.body_parentid[body])]);
             continue;
         }
-        const std::string name = body == 0 ? "ground" : c.nameOf(mjOBJ_BODY, body, "body_" + std::to_string(body));
+        const std::string name =
+            body == 0 ? "ground" : c.nameOf(mjOBJ_BODY, body, "body_" + std::to_string(body));
         c.bodyOf.push_back(c.builder.addBody(name, convert(c, body), place));
     }
 }

@@ -25,7 +25,8 @@ constexpr double kMostGap = 1e-9;  ///< [m, rad] largest violation at the start 
 int endOf(const Conversion& c, int body) {
     const int index = c.bodyOf[static_cast<std::size_t>(body)];
     if (index == kNone) return kNone;
-    return c.builder.scene.bodies[static_cast<std::size_t>(index)].type == scenario::BodyType::Static ? kNone : index;
+    return c.builder.scene.bodies[static_cast<std::size_t>(index)].type == scenario::BodyType::Static ? kNone
+                                                                                                      : index;
 }
 
 double violationOf(const Conversion& c, int equality) {
@@ -49,7 +50,8 @@ void addEquality(Conversion& c, int e) {
     const Vec3 at = c.point(c.d.xpos, one) + rotate(c.turn(c.d.xquat, one), local);
     int a = endOf(c, one), b = endOf(c, two);
     if (b == kNone) std::swap(a, b);
-    if (b == kNone || a == b) return c.report.noPhysics(shown, place, "it connects two bodies that do not move");
+    if (b == kNone || a == b)
+        return c.report.noPhysics(shown, place, "it connects two bodies that do not move");
     if (violationOf(c, e) > kMostGap)
         return c.report.refuse(shown, place, "the bodies are not where it holds them at the start");
     const std::string name = c.nameOf(mjOBJ_EQUALITY, e, "equality_" + std::to_string(e));
@@ -65,7 +67,8 @@ void addTendon(Conversion& c, int t) {
     const bool isLimited = c.m.tendon_limited[t] != 0 && !c.isOff(mjDSBL_LIMIT);
     const bool isSpring =
         !c.isOff(mjDSBL_PASSIVE) && (c.m.tendon_stiffness[t] > 0.0 || c.m.tendon_damping[t] > 0.0);
-    if (!isLimited && !isSpring) return c.report.noPhysics("<spatial>", place, "a tendon without limit and spring");
+    if (!isLimited && !isSpring)
+        return c.report.noPhysics("<spatial>", place, "a tendon without limit and spring");
     if (!isPlain) {
         c.report.leavesOut("tendons", "<spatial>", place, "only a tendon of two sites has a counterpart");
         return;
@@ -109,7 +112,8 @@ PairCoefficients largerOf(const Surface& a, const Surface& b) {
         const Surface& s = a.priority > b.priority ? a : b;
         return lawOf({s.friction, s.torsional, s.rolling}, s.contactDimension);
     }
-    return lawOf({std::max(a.friction, b.friction), std::max(a.torsional, b.torsional), std::max(a.rolling, b.rolling)},
+    return lawOf({std::max(a.friction, b.friction), std::max(a.torsional, b.torsional),
+                  std::max(a.rolling, b.rolling)},
                  std::max(a.contactDimension, b.contactDimension));
 }
 
@@ -147,7 +151,8 @@ void addContactRules(Conversion& c) {
         const auto ends = std::minmax(c.m.pair_geom1[p], c.m.pair_geom2[p]);
         const mjtNum* f = c.m.pair_friction + 5 * static_cast<std::ptrdiff_t>(p);
         if (c.m.pair_dim[p] > 1 && f[0] != f[1])
-            c.report.leavesOut("anisotropic_friction", "<pair> friction", {c.options.file.filename().string(), 0},
+            c.report.leavesOut("anisotropic_friction", "<pair> friction",
+                               {c.options.file.filename().string(), 0},
                                "friction that depends on the direction has no counterpart");
         pairs.insert(ends);
         c.builder.setPair(ends.first + 1, ends.second + 1, lawOf({f[0], f[2], f[3]}, c.m.pair_dim[p]));
@@ -168,7 +173,8 @@ void addContactRules(Conversion& c) {
         if (pairs.contains(std::minmax(a, b))) return true;
         if (m->opt.collision == mjCOL_PAIR) return false;
         if (apart.contains(std::minmax(m->geom_bodyid[a], m->geom_bodyid[b]))) return false;
-        return (m->geom_contype[a] & m->geom_conaffinity[b]) != 0 || (m->geom_contype[b] & m->geom_conaffinity[a]) != 0;
+        return (m->geom_contype[a] & m->geom_conaffinity[b]) != 0 ||
+               (m->geom_contype[b] & m->geom_conaffinity[a]) != 0;
     });
 }
 

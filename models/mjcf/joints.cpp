@@ -43,7 +43,8 @@ class Joints {
     void add(int body) {
         const int count = c_.m.body_jntnum[body], first = c_.m.body_jntadr[body];
         const int to = c_.bodyOf[static_cast<std::size_t>(body)];
-        if (to == kNone || c_.builder.scene.bodies[static_cast<std::size_t>(to)].type != scenario::BodyType::Dynamic)
+        if (to == kNone ||
+            c_.builder.scene.bodies[static_cast<std::size_t>(to)].type != scenario::BodyType::Dynamic)
             return;
         parent_ = frameOf(c_.m.body_parentid[body]);
         child_ = to;
@@ -59,27 +60,32 @@ class Joints {
     Place place(int joint) const { return c_.placeOf(c_.places.joints, joint); }
     Vec3 axis(int joint) const { return c_.point(c_.d.xaxis, joint); }
     Vec3 anchor(int joint) const { return c_.point(c_.d.xanchor, joint); }
-    std::string name(int joint) const { return c_.nameOf(mjOBJ_JOINT, joint, "joint_" + std::to_string(joint)); }
+    std::string name(int joint) const {
+        return c_.nameOf(mjOBJ_JOINT, joint, "joint_" + std::to_string(joint));
+    }
 
     /// The body that a joint is attached to above: the world for all that does not move.
     int frameOf(int body) const {
         const int index = c_.bodyOf[static_cast<std::size_t>(body)];
         if (index == kNone) return kNone;
-        return c_.builder.scene.bodies[static_cast<std::size_t>(index)].type == scenario::BodyType::Static ? kNone
-                                                                                                            : index;
+        return c_.builder.scene.bodies[static_cast<std::size_t>(index)].type == scenario::BodyType::Static
+                   ? kNone
+                   : index;
     }
 
-    Joint& make(int joint, JointType kind, const Vec3& at, const Vec3& along, const Vec3& normal = {1.0, 0.0, 0.0}) {
-        Joint& made = c_.builder.addJoint(name(joint), kind, parent_, child_, at, along, place(joint), normal);
+    Joint& make(int joint, JointType kind, const Vec3& at, const Vec3& along,
+                const Vec3& normal = {1.0, 0.0, 0.0}) {
+        Joint& made =
+            c_.builder.addJoint(name(joint), kind, parent_, child_, at, along, place(joint), normal);
         made.collideConnected = c_.isOff(mjDSBL_FILTERPARENT);
         return made;
     }
 
     void addFixed(int body) {
         const Vec3 at = c_.point(c_.d.xpos, body);
-        Joint& made = c_.builder.addJoint(c_.nameOf(mjOBJ_BODY, body, "body_" + std::to_string(body)) + "_fixed",
-                                          JointType::Fixed, parent_, child_, at, {0.0, 0.0, 1.0},
-                                          c_.placeOf(c_.places.bodies, body));
+        Joint& made = c_.builder.addJoint(
+            c_.nameOf(mjOBJ_BODY, body, "body_" + std::to_string(body)) + "_fixed", JointType::Fixed, parent_,
+            child_, at, {0.0, 0.0, 1.0}, c_.placeOf(c_.places.bodies, body));
         made.collideConnected = c_.isOff(mjDSBL_FILTERPARENT);
     }
 
@@ -161,15 +167,17 @@ class Joints {
         if (turns.empty()) return addSlides(slides, slides.front(), JointType::Fixed);
         if (slides.empty()) return addTurns(turns, refuse);
         if (turns.size() > 1) return refuse("slides and several turns have no counterpart");
-        if (type(turns[0]) == mjJNT_BALL && !slideAfterTurn) return addSlides(slides, turns[0], JointType::Ball);
+        if (type(turns[0]) == mjJNT_BALL && !slideAfterTurn)
+            return addSlides(slides, turns[0], JointType::Ball);
         if (type(turns[0]) == mjJNT_BALL) return refuse("a slide after a ball has no counterpart");
         const Vec3 h = axis(turns[0]);
         const bool aligned = std::all_of(slides.begin(), slides.end(), [&](int s) {
             return areParallel(axis(s), h) || (areNormal(axis(s), h) && !slideAfterTurn);
         });
         if (!aligned)
-            return refuse(slideAfterTurn ? "a slide that turns with a hinge has no counterpart"
-                                         : "a slide and a hinge that are neither parallel nor at right angles");
+            return refuse(slideAfterTurn
+                              ? "a slide that turns with a hinge has no counterpart"
+                              : "a slide and a hinge that are neither parallel nor at right angles");
         addSlides(slides, turns[0], JointType::Hinge);
     }
 
@@ -232,8 +240,10 @@ class Joints {
             make(turns[0], JointType::Ball, anchor(turns[0]), {0.0, 0.0, 1.0});
             return;
         }
-        refuse("these hinges have no counterpart: two at right angles have, and three without limits, springs and "
-               "friction");
+        refuse(
+            "these hinges have no counterpart: two at right angles have, and three without limits, springs "
+            "and "
+            "friction");
     }
 
     Conversion& c_;

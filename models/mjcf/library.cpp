@@ -95,9 +95,10 @@ Model compile(XmlFile& file, const std::string& shown) {
     }
     if (!model) throw Refusal({shown, line}, libraryName() + " says: " + said);
     const mjModel& m = *model;
-    if (!allFinite(m.qpos0, m.nq) || !allFinite(m.body_pos, 3 * m.nbody) || !allFinite(m.body_mass, m.nbody) ||
-        !allFinite(m.body_inertia, 3 * m.nbody) || !allFinite(m.geom_pos, 3 * m.ngeom) ||
-        !allFinite(m.geom_size, 3 * m.ngeom) || !allFinite(m.opt.gravity, 3))
+    if (!allFinite(m.qpos0, m.nq) || !allFinite(m.body_pos, 3 * m.nbody) ||
+        !allFinite(m.body_mass, m.nbody) || !allFinite(m.body_inertia, 3 * m.nbody) ||
+        !allFinite(m.geom_pos, 3 * m.ngeom) || !allFinite(m.geom_size, 3 * m.ngeom) ||
+        !allFinite(m.opt.gravity, 3))
         throw Refusal({shown, 0}, "a value is not a number, not finite or beyond 1e15");
     return model;
 }

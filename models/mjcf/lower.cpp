@@ -5,9 +5,9 @@
 // a replicate has the pose (offset, euler)^k, its names get the number as a suffix, and elements that refer to such
 // names (tendons, equalities, contacts) are copied with them.
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
+#include "models/common/text.hpp"
 #include "models/mjcf/mjcf.hpp"
 
 namespace rigor::models::mjcf {
@@ -19,16 +19,6 @@ using tinyxml2::XMLElement;
 
 constexpr int kMostElements = 200000;  ///< of a document with its replicas
 constexpr const char* kOrientations[] = {"quat", "axisangle", "euler", "xyaxes", "zaxis"};
-
-std::string numbersText(std::initializer_list<double> values) {
-    std::string out;
-    char buffer[32];
-    for (const double v : values) {
-        std::snprintf(buffer, sizeof buffer, "%.17g", v);
-        out += (out.empty() ? "" : " ") + std::string(buffer);
-    }
-    return out;
-}
 
 class Lowering {
   public:
@@ -88,7 +78,8 @@ class Lowering {
         for (int k = 0; k < count; ++k) {
             std::string number = std::to_string(k);
             number = (separator ? separator : "") + std::string(digits - number.size(), '0') + number;
-            for (const XMLElement* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
+            for (const XMLElement* child = element.FirstChildElement(); child;
+                 child = child->NextSiblingElement()) {
                 XMLElement* made = file_.copy(*child);
                 passClass(element, *made);
                 addSuffix(*made, number, place);
@@ -102,8 +93,8 @@ class Lowering {
     void passClass(const XMLElement& from, XMLElement& to) {
         const char* given = from.Attribute("childclass");
         if (!given) return;
-        const char* key = isNamed(to, "body") || isNamed(to, "frame") || isNamed(to, "replicate") ? "childclass"
-                                                                                                     : "class";
+        const char* key =
+            isNamed(to, "body") || isNamed(to, "frame") || isNamed(to, "replicate") ? "childclass" : "class";
         if (!to.Attribute(key)) to.SetAttribute(key, given);
     }
 
@@ -112,7 +103,8 @@ class Lowering {
         if (const char* given = e.Attribute("name")) {
             const std::string name = given;
             auto& suffixes = suffixes_[name];
-            if (std::find(suffixes.begin(), suffixes.end(), suffix) == suffixes.end()) suffixes.push_back(suffix);
+            if (std::find(suffixes.begin(), suffixes.end(), suffix) == suffixes.end())
+                suffixes.push_back(suffix);
             e.SetAttribute("name", (name + suffix).c_str());
         }
         for (XMLElement* child = e.FirstChildElement(); child; child = child->NextSiblingElement())
@@ -132,15 +124,15 @@ class Lowering {
             std::vector<double> v;
             if (!readNumbers(ends, v) || v.size() != 6) throw Refusal(place, "fromto: expected 6 numbers");
             const Vec3 a = frame * Vec3{v[0], v[1], v[2]}, b = frame * Vec3{v[3], v[4], v[5]};
-            e.SetAttribute("fromto", numbersText({a.x, a.y, a.z, b.x, b.y, b.z}).c_str());
+            e.SetAttribute("fromto", digits({a.x, a.y, a.z, b.x, b.y, b.z}).c_str());
             return;
         }
         const Pose pose = frame * poseOf(file_, e, compiler_);
         for (const char* key : kOrientations) e.DeleteAttribute(key);
         const Vec3& p = pose.position;
         const auto& q = pose.orientation;
-        e.SetAttribute("pos", numbersText({p.x, p.y, p.z}).c_str());
-        e.SetAttribute("quat", numbersText({q.w, q.x, q.y, q.z}).c_str());
+        e.SetAttribute("pos", digits({p.x, p.y, p.z}).c_str());
+        e.SetAttribute("quat", digits({q.w, q.x, q.y, q.z}).c_str());
     }
 
     bool hasPoseInDefaults(const char* element) {
@@ -153,7 +145,8 @@ class Lowering {
                 for (const char* key : kOrientations) found = found || c->Attribute(key);
             }
         };
-        for (XMLElement* e = file_.root()->FirstChildElement("default"); e; e = e->NextSiblingElement("default"))
+        for (XMLElement* e = file_.root()->FirstChildElement("default"); e;
+             e = e->NextSiblingElement("default"))
             look(*e);
         return found;
     }
@@ -179,7 +172,8 @@ class Lowering {
                 const auto own = allSuffixes(name);
                 if (own.empty()) return;
                 if (!suffixes.empty() && suffixes != own)
-                    throw Refusal(file_.place(at), "a reference to replicas of different numbers is not read");
+                    throw Refusal(file_.place(at),
+                                  "a reference to replicas of different numbers is not read");
                 suffixes = own;
             });
             tinyxml2::XMLNode* after = e;
@@ -199,8 +193,8 @@ class Lowering {
 
     template <class Function>
     static void forReferences(XMLElement& e, const Function& function) {
-        for (const char* key : {"site", "site1", "site2", "geom", "geom1", "geom2", "body1", "body2", "joint", "joint1",
-                                "joint2"})
+        for (const char* key : {"site", "site1", "site2", "geom", "geom1", "geom2", "body1", "body2", "joint",
+                                "joint1", "joint2"})
             if (const char* name = e.Attribute(key)) function(e, key, std::string(name));
         for (XMLElement* child = e.FirstChildElement(); child; child = child->NextSiblingElement())
             forReferences(*child, function);
@@ -223,7 +217,8 @@ void resolveFiles(XmlFile& file, const AssetFolders& assets) {
                 folder = given;
                 e->DeleteAttribute(key);
             }
-    for (XMLElement* asset = root->FirstChildElement("asset"); asset; asset = asset->NextSiblingElement("asset"))
+    for (XMLElement* asset = root->FirstChildElement("asset"); asset;
+         asset = asset->NextSiblingElement("asset"))
         for (XMLElement* e = asset->FirstChildElement(); e; e = e->NextSiblingElement()) {
             const std::string_view kind(e->Name());
             const char* name = e->Attribute("file");
@@ -254,7 +249,8 @@ void lower(XmlFile& file, const AssetFolders& assets, Report& report) {
     if (std::string_view(file.root()->Name()) != "mujoco")
         throw Refusal(file.place(*file.root()),
                       std::string("found <") + file.root()->Name() + ">, expected <mujoco>");
-    file.expandIncludes([&](const std::string& name, const Place& place) { return assets.find(name, place); });
+    file.expandIncludes(
+        [&](const std::string& name, const Place& place) { return assets.find(name, place); });
     Lowering(file, report).run();
     resolveFiles(file, assets);
     setAutoLimits(file);
@@ -265,7 +261,8 @@ Places collectPlaces(XmlFile& file) {
     places.bodies.push_back({file.shownName(), 0});
     places.gravityCompensation.push_back(0.0);
     std::vector<XMLElement*> worlds;
-    for (XMLElement* e = file.root()->FirstChildElement("worldbody"); e; e = e->NextSiblingElement("worldbody"))
+    for (XMLElement* e = file.root()->FirstChildElement("worldbody"); e;
+         e = e->NextSiblingElement("worldbody"))
         worlds.push_back(e);
     const auto addParts = [&](XMLElement& e) {
         for (XMLElement* c = e.FirstChildElement(); c; c = c->NextSiblingElement()) {
@@ -284,10 +281,12 @@ Places collectPlaces(XmlFile& file) {
     };
     for (XMLElement* world : worlds) addParts(*world);
     for (XMLElement* world : worlds)
-        for (XMLElement* c = world->FirstChildElement("body"); c; c = c->NextSiblingElement("body")) addBody(*c);
+        for (XMLElement* c = world->FirstChildElement("body"); c; c = c->NextSiblingElement("body"))
+            addBody(*c);
     const auto list = [&](const char* section, std::vector<Place>& out) {
         for (XMLElement* e = file.root()->FirstChildElement(section); e; e = e->NextSiblingElement(section))
-            for (XMLElement* c = e->FirstChildElement(); c; c = c->NextSiblingElement()) out.push_back(file.place(*c));
+            for (XMLElement* c = e->FirstChildElement(); c; c = c->NextSiblingElement())
+                out.push_back(file.place(*c));
     };
     list("equality", places.equalities);
     list("tendon", places.tendons);

@@ -33,7 +33,8 @@ void checkWords(XmlFile& file, Report& report) {
         },
         libraryName());
     for (const char* section : {"actuator", "sensor"})
-        if (auto* e = file.root()->FirstChildElement(section); e && e->NoChildren()) file.root()->DeleteChild(e);
+        if (auto* e = file.root()->FirstChildElement(section); e && e->NoChildren())
+            file.root()->DeleteChild(e);
 }
 
 /// Sets the start: the model's own, or that of a keyframe.
@@ -41,16 +42,18 @@ void setStart(mjModel& m, mjData& d, const ReadOptions& options, Report& report,
     mj_resetData(&m, &d);
     if (options.keyframe.empty()) {
         if (m.nkey > 0)
-            report.changed("<keyframe>", place,
-                           "the start is the model's own pose at rest; --keyframe NAME or NUMBER starts from one of the "
-                           "file's " + std::to_string(m.nkey));
+            report.changed(
+                "<keyframe>", place,
+                "the start is the model's own pose at rest; --keyframe NAME or NUMBER starts from one of the "
+                "file's " +
+                    std::to_string(m.nkey));
     } else {
         int key = mj_name2id(&m, mjOBJ_KEY, options.keyframe.c_str());
         const char* end = options.keyframe.data() + options.keyframe.size();
         if (key < 0 && std::from_chars(options.keyframe.data(), end, key).ptr != end) key = -1;
         if (key < 0 || key >= m.nkey)
-            throw Refusal(place, "--keyframe: found '" + options.keyframe + "', expected the name or number of one of " +
-                                     std::to_string(m.nkey));
+            throw Refusal(place, "--keyframe: found '" + options.keyframe +
+                                     "', expected the name or number of one of " + std::to_string(m.nkey));
         mj_resetDataKeyframe(&m, &d, key);
     }
     const int flags = m.opt.disableflags;

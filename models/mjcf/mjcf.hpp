@@ -62,14 +62,19 @@ struct Conversion {
     const mjModel& m;
     const mjData& d;
     const Places& places;
-    std::vector<int> bodyOf;          ///< scenario's body of a model's body, or kNone
+    std::vector<int> bodyOf;  ///< scenario's body of a model's body, or kNone
 
-    bool isOff(mjtDisableBit bit) const { return (m.opt.disableflags & (bit | mjDSBL_CONSTRAINT * isConstraint(bit))) != 0; }
+    bool isOff(mjtDisableBit bit) const {
+        return (m.opt.disableflags & (bit | mjDSBL_CONSTRAINT * isConstraint(bit))) != 0;
+    }
     static bool isConstraint(mjtDisableBit bit) {
-        return bit == mjDSBL_EQUALITY || bit == mjDSBL_FRICTIONLOSS || bit == mjDSBL_LIMIT || bit == mjDSBL_CONTACT;
+        return bit == mjDSBL_EQUALITY || bit == mjDSBL_FRICTIONLOSS || bit == mjDSBL_LIMIT ||
+               bit == mjDSBL_CONTACT;
     }
     Place placeOf(const std::vector<Place>& list, int index) const;
-    scenario::Vec3 point(const mjtNum* p, int index) const { return {p[3 * index], p[3 * index + 1], p[3 * index + 2]}; }
+    scenario::Vec3 point(const mjtNum* p, int index) const {
+        return {p[3 * index], p[3 * index + 1], p[3 * index + 2]};
+    }
     scenario::Quat turn(const mjtNum* q, int index) const {
         return {q[4 * index], q[4 * index + 1], q[4 * index + 2], q[4 * index + 3]};
     }

@@ -53,14 +53,16 @@ scenario::Pose poseOf(const XmlFile& file, const tinyxml2::XMLElement& element, 
         std::vector<double> values;
         if (const char* text = element.Attribute(name))
             if (!readNumbers(text, values) || values.size() != count)
-                throw Refusal(file.place(element), std::string("<") + element.Name() + "> " + name + ": found '" +
-                                                       text + "', expected " + std::to_string(count) + " numbers");
+                throw Refusal(file.place(element), std::string("<") + element.Name() + "> " + name +
+                                                       ": found '" + text + "', expected " +
+                                                       std::to_string(count) + " numbers");
         return values;
     };
     const double unit = compiler.degrees ? kPi / 180.0 : 1.0;
     scenario::Pose pose;
     if (const auto p = numbers("pos", 3); !p.empty()) pose.position = {p[0], p[1], p[2]};
-    if (const auto q = numbers("quat", 4); !q.empty()) pose.orientation = normalized(Quat{q[0], q[1], q[2], q[3]});
+    if (const auto q = numbers("quat", 4); !q.empty())
+        pose.orientation = normalized(Quat{q[0], q[1], q[2], q[3]});
     if (const auto a = numbers("axisangle", 4); !a.empty()) {
         const Vec3 axis{a[0], a[1], a[2]};
         pose.orientation = scenario::fromAxisAngle(axis / norm(axis), a[3] * unit);

@@ -10,6 +10,7 @@
 #include <sdf/sdf.hh>
 
 #include "models/common/files.hpp"
+#include "models/common/text.hpp"
 #include "models/geometry/mesh_file.hpp"
 #include "models/sdf/rules.hpp"
 
@@ -26,7 +27,7 @@ using scenario::Pose;
 using scenario::Vec3;
 using tinyxml2::XMLElement;
 
-constexpr double kUnlimited = 1e6;     ///< limits beyond it are none
+constexpr double kUnlimited = 1e6;        ///< limits beyond it are none
 constexpr double kUsualDensity = 1000.0;  ///< of the format, for inertia from shapes [kg/m^3]
 constexpr double kUsualThreshold = 1e5;   ///< of the format, for bounces [m/s]
 
@@ -66,7 +67,8 @@ Newer takeNewer(XmlFile& file) {
                 cone->SetName("cylinder");
             }
         }
-        XMLElement* inertial = std::string_view(e.Name()) == "link" ? e.FirstChildElement("inertial") : nullptr;
+        XMLElement* inertial =
+            std::string_view(e.Name()) == "link" ? e.FirstChildElement("inertial") : nullptr;
         if (!inertial) return;
         const double density = densityOf(*inertial);
         const char* given = inertial->Attribute("auto");
@@ -136,7 +138,8 @@ class World {
         for (uint64_t i = 0; i < m.LinkCount(); ++i) link(*m.LinkByIndex(i), m, pose, name, still);
         for (uint64_t i = 0; i < m.ModelCount(); ++i) {
             const sdf::Model& inner = *m.ModelByIndex(i);
-            model(inner, pose * resolve(inner.SemanticPose(), "__model__", placeOf(inner.Element())), name, still);
+            model(inner, pose * resolve(inner.SemanticPose(), "__model__", placeOf(inner.Element())), name,
+                  still);
         }
         for (uint64_t i = 0; i < m.JointCount(); ++i) joint(*m.JointByIndex(i), pose, name);
     }
@@ -179,10 +182,12 @@ class World {
     /// Links of one model collide only if both say so; here all of a model must agree.
     void groups(bool collides, int index, const Place& place) {
         if (selfCollision_ && *selfCollision_ != collides)
-            report_.leavesOut("self_collide", "<self_collide>", place, "links of one model that differ in it");
+            report_.leavesOut("self_collide", "<self_collide>", place,
+                              "links of one model that differ in it");
         selfCollision_ = collides;
         if (collides) return;
-        for (auto& shape : builder_.scene.bodies[static_cast<std::size_t>(index)].shapes) shape.filter.group = group_;
+        for (auto& shape : builder_.scene.bodies[static_cast<std::size_t>(index)].shapes)
+            shape.filter.group = group_;
     }
 
     void setInertia(const sdf::Link& l, int index, double density, const Place& place) {
@@ -197,9 +202,11 @@ class World {
             materials.push_back(material);
             shapes[i].material = static_cast<int>(i);
         }
-        if (shapes.empty()) return report_.refuse("<inertial> auto", place, "a link without shapes to take mass from");
+        if (shapes.empty())
+            return report_.refuse("<inertial> auto", place, "a link without shapes to take mass from");
         body.massProperties = scenario::massPropertiesFromShapes(shapes, materials, 3);
-        report_.changed("<inertial> auto", place, "mass and inertia were computed from the densities of the shapes");
+        report_.changed("<inertial> auto", place,
+                        "mass and inertia were computed from the densities of the shapes");
     }
 
     static double number(const sdf::ElementPtr& parent, const char* key, double usual) {
@@ -215,14 +222,15 @@ class World {
         const double mu = number(ode, "mu", 1.0), mu2 = number(ode, "mu2", 1.0);
         if (mu != mu2)
             report_.leavesOut("anisotropic_friction", "<mu2>", place,
-                              "friction that depends on the direction (mu " + std::to_string(mu) + ", mu2 " +
-                                  std::to_string(mu2) + (ode->HasElement("mu2") ? "" : " by default") +
+                              "friction that depends on the direction (mu " + digits({mu}) + ", mu2 " +
+                                  digits({mu2}) + (ode->HasElement("mu2") ? "" : " by default") +
                                   "); without it mu holds for all");
         const sdf::ElementPtr bounce = child(element, "bounce");
         double restitution = number(bounce, "restitution_coefficient", 0.0);
         if (restitution > 0.0 && number(bounce, "threshold", kUsualThreshold) > 0.0 &&
-            report_.leavesOut("restitution_threshold", "<bounce>", place,
-                              "restitution above a threshold of the speed alone; without it restitution always holds"))
+            report_.leavesOut(
+                "restitution_threshold", "<bounce>", place,
+                "restitution above a threshold of the speed alone; without it restitution always holds"))
             restitution = number(bounce, "restitution_coefficient", 0.0);
         return {mu, restitution, 0.0, 0.0, 6, 0, 0};
     }
@@ -243,37 +251,43 @@ class World {
         const int kind = maskOf(c);
         const sdf::Geometry& g = *c.Geom();
         switch (g.Type()) {
-            case sdf::GeometryType::EMPTY: return;
+            case sdf::GeometryType::EMPTY:
+                return;
             case sdf::GeometryType::BOX:
-                return builder_.addShape(body, scenario::Box{0.5 * convert(g.BoxShape()->Size())}, pose, law, kind);
+                return builder_.addShape(body, scenario::Box{0.5 * convert(g.BoxShape()->Size())}, pose, law,
+                                         kind);
             case sdf::GeometryType::SPHERE:
                 return builder_.addShape(body, scenario::Sphere{g.SphereShape()->Radius()}, pose, law, kind);
             case sdf::GeometryType::CYLINDER:
                 if (newer_.cones.contains(place.line))
                     return builder_.addRoundZ(
-                        body, scenario::Cone{g.CylinderShape()->Radius(), 0.5 * g.CylinderShape()->Length()}, pose, law,
-                        kind);
+                        body, scenario::Cone{g.CylinderShape()->Radius(), 0.5 * g.CylinderShape()->Length()},
+                        pose, law, kind);
                 return builder_.addRoundZ(
-                    body, scenario::Cylinder{g.CylinderShape()->Radius(), 0.5 * g.CylinderShape()->Length()}, pose, law,
-                    kind);
+                    body, scenario::Cylinder{g.CylinderShape()->Radius(), 0.5 * g.CylinderShape()->Length()},
+                    pose, law, kind);
             case sdf::GeometryType::CAPSULE:
                 return builder_.addRoundZ(
-                    body, scenario::Capsule{g.CapsuleShape()->Radius(), 0.5 * g.CapsuleShape()->Length()}, pose, law,
-                    kind);
+                    body, scenario::Capsule{g.CapsuleShape()->Radius(), 0.5 * g.CapsuleShape()->Length()},
+                    pose, law, kind);
             case sdf::GeometryType::ELLIPSOID:
-                return builder_.addShape(body, scenario::Ellipsoid{convert(g.EllipsoidShape()->Radii())}, pose, law,
-                                         kind);
-            case sdf::GeometryType::PLANE: return plane(convert(g.PlaneShape()->Normal()), body, pose, law, kind, place);
+                return builder_.addShape(body, scenario::Ellipsoid{convert(g.EllipsoidShape()->Radii())},
+                                         pose, law, kind);
+            case sdf::GeometryType::PLANE:
+                return plane(convert(g.PlaneShape()->Normal()), body, pose, law, kind, place);
             case sdf::GeometryType::MESH: {
                 const auto file = assets_.find(g.MeshShape()->Uri(), place);
-                return addMesh(builder_, report_, body, readMesh(file, convert(g.MeshShape()->Scale()), place), pose,
-                               law, kind, options_.hull, place);
+                return addMesh(builder_, report_, body,
+                               readMesh(file, convert(g.MeshShape()->Scale()), place), pose, law, kind,
+                               options_.hull, place);
             }
-            default: report_.refuse("<geometry>", place, "a kind of shape that is not read");
+            default:
+                report_.refuse("<geometry>", place, "a kind of shape that is not read");
         }
     }
 
-    void plane(const Vec3& normal, int body, const Pose& pose, const Surface& law, int kind, const Place& place) {
+    void plane(const Vec3& normal, int body, const Pose& pose, const Surface& law, int kind,
+               const Place& place) {
         if (builder_.scene.bodies[static_cast<std::size_t>(body)].type != BodyType::Static)
             return report_.refuse("<plane>", place, "a plane on a body that moves");
         report_.changed("<plane>", place, "a half-space: a plane collides beyond its size, as in Gazebo");
@@ -305,9 +319,12 @@ class World {
         const int a = *two == kNone ? kNone : *one, b = *two == kNone ? *one : *two;
         const Pose frame = modelPose * resolve(j.SemanticPose(), "__model__", place);
         const double sign = *two == kNone ? -1.0 : 1.0;
-        const Vec3 first = sign * axisOf(j, 0, modelPose, place), second = sign * axisOf(j, 1, modelPose, place);
-        const auto add = [&](JointType type, const Vec3& axis, const Vec3& normal = {1.0, 0.0, 0.0}) -> Joint& {
-            return builder_.addJoint(withPoints(path + "::" + j.Name()), type, a, b, frame.position, axis, place, normal);
+        const Vec3 first = sign * axisOf(j, 0, modelPose, place),
+                   second = sign * axisOf(j, 1, modelPose, place);
+        const auto add = [&](JointType type, const Vec3& axis,
+                             const Vec3& normal = {1.0, 0.0, 0.0}) -> Joint& {
+            return builder_.addJoint(withPoints(path + "::" + j.Name()), type, a, b, frame.position, axis,
+                                     place, normal);
         };
         switch (j.Type()) {
             case sdf::JointType::REVOLUTE:
@@ -315,15 +332,22 @@ class World {
                 return control(j.Axis(0), add(JointType::Hinge, first).axes[0], AxisMode::Usual, place);
             case sdf::JointType::PRISMATIC:
                 return control(j.Axis(0), add(JointType::Slider, first).axes[0], AxisMode::Usual, place);
-            case sdf::JointType::BALL: add(JointType::Ball, {0.0, 0.0, 1.0}); return;
-            case sdf::JointType::FIXED: add(JointType::Fixed, {0.0, 0.0, 1.0}); return;
+            case sdf::JointType::BALL:
+                add(JointType::Ball, {0.0, 0.0, 1.0});
+                return;
+            case sdf::JointType::FIXED:
+                add(JointType::Fixed, {0.0, 0.0, 1.0});
+                return;
             case sdf::JointType::REVOLUTE2:
-                report_.changed("<joint> type", place, "revolute2, two hinges one after the other, is a universal joint");
+                report_.changed("<joint> type", place,
+                                "revolute2, two hinges one after the other, is a universal joint");
                 [[fallthrough]];
             case sdf::JointType::UNIVERSAL: {
                 if (std::abs(dot(first, second)) > 1e-9)
-                    return report_.refuse("<joint>", place, "a universal joint whose axes are not at right angles");
-                if (sign < 0.0) return report_.refuse("<joint>", place, "a universal joint whose child does not move");
+                    return report_.refuse("<joint>", place,
+                                          "a universal joint whose axes are not at right angles");
+                if (sign < 0.0)
+                    return report_.refuse("<joint>", place, "a universal joint whose child does not move");
                 Joint& made = add(JointType::SixDof, second, first);
                 for (auto& axis : made.axes) axis.mode = AxisMode::Locked;
                 control(j.Axis(0), made.axes[4], AxisMode::Free, place);
@@ -335,7 +359,8 @@ class World {
             case sdf::JointType::SCREW:
                 report_.leavesOut("screw", "<joint> type", place, "a screw has no counterpart");
                 return;
-            default: report_.refuse("<joint> type", place, "a kind of joint that is not read");
+            default:
+                report_.refuse("<joint> type", place, "a kind of joint that is not read");
         }
     }
 
@@ -343,7 +368,8 @@ class World {
     Vec3 axisOf(const sdf::Joint& j, unsigned index, const Pose& modelPose, const Place& place) {
         const sdf::JointAxis* axis = j.Axis(index);
         if (!axis)
-            return rotate((modelPose * resolve(j.SemanticPose(), "__model__", place)).orientation, {0.0, 0.0, 1.0});
+            return rotate((modelPose * resolve(j.SemanticPose(), "__model__", place)).orientation,
+                          {0.0, 0.0, 1.0});
         ignition::math::Vector3d direction;
         const sdf::Errors errors = axis->ResolveXyz(direction, "__model__");
         if (!errors.empty()) throw Refusal(place, "libsdformat says: " + errors.front().Message());
@@ -384,12 +410,14 @@ class World {
 
 /// Removes the plugins that are the simulator itself: its step, its messages and sensors.
 void removeSystems(XmlFile& file, XMLElement& parent, Report& report) {
-    static const std::regex own("(lib)?(gz|ignition)-(sim|gazebo)[0-9]*-(physics|user-commands|scene-broadcaster|sensors|"
-                                "contact|imu|forcetorque|altimeter|magnetometer|air-pressure)-system(\\.so)?");
+    static const std::regex own(
+        "(lib)?(gz|ignition)-(sim|gazebo)[0-9]*-(physics|user-commands|scene-broadcaster|sensors|"
+        "contact|imu|forcetorque|altimeter|magnetometer|air-pressure)-system(\\.so)?");
     for (XMLElement* child = parent.FirstChildElement(); child;) {
         XMLElement* next = child->NextSiblingElement();
         removeSystems(file, *child, report);
-        const char* name = std::string_view(child->Name()) == "plugin" ? child->Attribute("filename") : nullptr;
+        const char* name =
+            std::string_view(child->Name()) == "plugin" ? child->Attribute("filename") : nullptr;
         if (name && std::regex_match(name, own)) {
             report.noPhysics("<plugin>", file.place(*child), "a part of the simulator itself");
             parent.DeleteChild(child);
@@ -403,13 +431,15 @@ void checkIncludes(XmlFile& file, XMLElement& parent, const AssetFolders& assets
     for (XMLElement* child = parent.FirstChildElement(); child;) {
         XMLElement* next = child->NextSiblingElement();
         checkIncludes(file, *child, assets, report);
-        const XMLElement* uri = std::string_view(child->Name()) == "include" ? child->FirstChildElement("uri") : nullptr;
+        const XMLElement* uri =
+            std::string_view(child->Name()) == "include" ? child->FirstChildElement("uri") : nullptr;
         if (uri && uri->GetText()) {
             const std::string text = uri->GetText();
             try {
                 (void)assets.find(text, file.place(*uri));
             } catch (const Refusal& refusal) {
-                report.leavesOut(text.substr(text.rfind('/') + 1), "<include>", file.place(*uri), refusal.what());
+                report.leavesOut(text.substr(text.rfind('/') + 1), "<include>", file.place(*uri),
+                                 refusal.what());
                 parent.DeleteChild(child);
             }
         }
@@ -432,7 +462,8 @@ Answer read(const ReadOptions& options) {
     Report report(options.without);
     XmlFile file(options.file);
     if (std::string_view(file.root()->Name()) != "sdf")
-        throw Refusal(file.place(*file.root()), std::string("found <") + file.root()->Name() + ">, expected <sdf>");
+        throw Refusal(file.place(*file.root()),
+                      std::string("found <") + file.root()->Name() + ">, expected <sdf>");
     const AssetFolders assets(options.file, options.assets);
     removeSystems(file, *file.root(), report);
     checkIncludes(file, *file.root(), assets, report);
@@ -460,7 +491,9 @@ Answer read(const ReadOptions& options) {
         report.refuse("file", {file.shownName(), errors.front().LineNumber().value_or(0)},
                       "libsdformat says: " + errors.front().Message());
     for (const auto& one : included) {
-        XmlFile other(one, std::filesystem::relative(one, std::filesystem::absolute(options.file).parent_path()).string());
+        XmlFile other(
+            one,
+            std::filesystem::relative(one, std::filesystem::absolute(options.file).parent_path()).string());
         applyRules(other, sdfRules(), report);
     }
     if (report.isRefused()) return {"", report};

@@ -8,10 +8,12 @@
 
 #include <console_bridge/console.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "models/common/files.hpp"
+#include "models/common/text.hpp"
 #include "models/common/xml_file.hpp"
 #include "models/geometry/mesh_file.hpp"
 #include "models/urdf/rules.hpp"
@@ -62,7 +64,8 @@ double valueOf(const XmlFile& file, const XMLElement& parent, const char* child,
     std::vector<double> v;
     const char* text = e->Attribute("value");
     if (!text || !readNumbers(text, v) || v.size() != 1 || v[0] < 0.0)
-        throw Refusal(file.place(*e), std::string("<") + child + "> value: expected a number that is not negative");
+        throw Refusal(file.place(*e),
+                      std::string("<") + child + "> value: expected a number that is not negative");
     return v[0];
 }
 
@@ -72,7 +75,8 @@ class Extensions {
 
     /// Takes the extensions out of the document, so that the library can read it.
     Extras take() {
-        for (XMLElement* e = file_.root()->FirstChildElement("link"); e; e = e->NextSiblingElement("link")) link(*e);
+        for (XMLElement* e = file_.root()->FirstChildElement("link"); e; e = e->NextSiblingElement("link"))
+            link(*e);
         for (XMLElement* e = file_.root()->FirstChildElement("joint"); e; e = e->NextSiblingElement("joint"))
             joint(*e);
         return std::move(extras_);
@@ -81,13 +85,15 @@ class Extensions {
   private:
     std::string nameOf(const XMLElement& e) const {
         const char* name = e.Attribute("name");
-        if (!name || !*name) throw Refusal(file_.place(e), std::string("a <") + e.Name() + "> without a name");
+        if (!name || !*name)
+            throw Refusal(file_.place(e), std::string("a <") + e.Name() + "> without a name");
         return name;
     }
     template <class Map>
     void remember(Map& places, const XMLElement& e) const {
         if (!places.emplace(nameOf(e), file_.place(e)).second)
-            throw Refusal(file_.place(e), std::string("a second <") + e.Name() + "> of the name '" + nameOf(e) + "'");
+            throw Refusal(file_.place(e),
+                          std::string("a second <") + e.Name() + "> of the name '" + nameOf(e) + "'");
     }
     Surface usual() const { return {options_.friction, 0.0, 0.0, 0.0, 6, 0, 0}; }
 
@@ -105,7 +111,8 @@ class Extensions {
         }
         extras_.linkSurface[name] = surface;
         int index = 0;
-        for (XMLElement* c = e.FirstChildElement("collision"); c; c = c->NextSiblingElement("collision"), ++index)
+        for (XMLElement* c = e.FirstChildElement("collision"); c;
+             c = c->NextSiblingElement("collision"), ++index)
             collision(*c, name, index, surface);
     }
     void collision(XMLElement& e, const std::string& link, int index, Surface surface) {
@@ -142,7 +149,8 @@ class Extensions {
 
 class Robot {
   public:
-    Robot(const ReadOptions& options, Report& report, XmlFile& file, Extras extras, const urdf::ModelInterface& model)
+    Robot(const ReadOptions& options, Report& report, XmlFile& file, Extras extras,
+          const urdf::ModelInterface& model)
         : options_(options),
           report_(report),
           file_(file),
@@ -173,7 +181,8 @@ class Robot {
                                                    : "the root has no mass: it does not move");
             body = link.collision_array.empty() ? kNone : add(link, pose, BodyType::Static);
         } else if (!isRoot && !hasMass && isFixed && above != kNone) {
-            report_.changed("<link>", linkPlace(link.name), "a link without mass is part of the one above it");
+            report_.changed("<link>", linkPlace(link.name),
+                            "a link without mass is part of the one above it");
             body = above;
         } else if (!isRoot && isFixed && (above == kNone || type(above) == BodyType::Static)) {
             body = link.collision_array.empty() ? kNone : add(link, pose, BodyType::Static);
@@ -187,7 +196,8 @@ class Robot {
         if (joint && body != kNone && body != above && type(body) == BodyType::Dynamic)
             addJoint(*joint, pose, above != kNone && type(above) == BodyType::Static ? kNone : above, body);
         for (const auto& child : link.child_links)
-            addLink(*child, pose * convert(child->parent_joint->parent_to_joint_origin_transform), body, false);
+            addLink(*child, pose * convert(child->parent_joint->parent_to_joint_origin_transform), body,
+                    false);
     }
 
     BodyType type(int body) const { return builder_.scene.bodies[static_cast<std::size_t>(body)].type; }
@@ -224,15 +234,18 @@ class Robot {
                 builder_.addShape(body, scenario::Box{0.5 * convert(box->dim)}, at, surface, 0);
             else if (const auto* round = dynamic_cast<const urdf::Cylinder*>(collision->geometry.get())) {
                 if (extras_.capsules.contains(key))
-                    builder_.addRoundZ(body, scenario::Capsule{round->radius, 0.5 * round->length}, at, surface, 0);
+                    builder_.addRoundZ(body, scenario::Capsule{round->radius, 0.5 * round->length}, at,
+                                       surface, 0);
                 else
-                    builder_.addRoundZ(body, scenario::Cylinder{round->radius, 0.5 * round->length}, at, surface, 0);
+                    builder_.addRoundZ(body, scenario::Cylinder{round->radius, 0.5 * round->length}, at,
+                                       surface, 0);
             } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(collision->geometry.get())) {
                 const Place place = linkPlace(link.name);
                 const auto parts = readMesh(assets_.find(mesh->filename, place), convert(mesh->scale), place);
                 addMesh(builder_, report_, body, parts, at, surface, 0, options_.hull, place);
             } else {
-                report_.refuse("<collision>", linkPlace(link.name), "a collision without a shape that is known");
+                report_.refuse("<collision>", linkPlace(link.name),
+                               "a collision without a shape that is known");
             }
         }
     }
@@ -243,7 +256,8 @@ class Robot {
         const double length = norm(convert(joint.axis));
         const bool needsAxis = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS ||
                                joint.type == urdf::Joint::PRISMATIC || joint.type == urdf::Joint::PLANAR;
-        if (needsAxis && !(length > 0.0)) return report_.refuse("<axis>", place, "an axis without a direction");
+        if (needsAxis && !(length > 0.0))
+            return report_.refuse("<axis>", place, "an axis without a direction");
         const Vec3 axis =
             needsAxis ? rotate(pose.orientation, convert(joint.axis) / length) : Vec3{0.0, 0.0, 1.0};
         if (extras_.spherical.contains(joint.name)) {
@@ -255,18 +269,23 @@ class Robot {
             case urdf::Joint::CONTINUOUS:
                 return control(joint, builder_.addJoint(joint.name, JointType::Hinge, a, b, at, axis, place));
             case urdf::Joint::PRISMATIC:
-                return control(joint, builder_.addJoint(joint.name, JointType::Slider, a, b, at, axis, place));
+                return control(joint,
+                               builder_.addJoint(joint.name, JointType::Slider, a, b, at, axis, place));
             case urdf::Joint::FIXED:
                 builder_.addJoint(joint.name, JointType::Fixed, a, b, at, axis, place);
                 return;
-            case urdf::Joint::FLOATING: return;
-            case urdf::Joint::PLANAR: return addPlanar(joint, at, axis, place, a, b);
-            default: return report_.refuse("<joint> type", place, "a kind of joint that is not known");
+            case urdf::Joint::FLOATING:
+                return;
+            case urdf::Joint::PLANAR:
+                return addPlanar(joint, at, axis, place, a, b);
+            default:
+                return report_.refuse("<joint> type", place, "a kind of joint that is not known");
         }
     }
 
     /// Free in the plane normal to the axis, and about the axis.
-    void addPlanar(const urdf::Joint& joint, const Vec3& at, const Vec3& axis, const Place& place, int a, int b) {
+    void addPlanar(const urdf::Joint& joint, const Vec3& at, const Vec3& axis, const Place& place, int a,
+                   int b) {
         const Vec3 other = std::abs(axis.x) < 0.7 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0};
         const Vec3 across = cross(axis, other);
         Joint& made =
@@ -286,15 +305,18 @@ class Robot {
         axis.damping = joint.dynamics->damping;
         if (joint.dynamics->friction > 0.0) {
             axis.motorMaxForce = joint.dynamics->friction;
-            report_.changed("<dynamics> friction", jointPlace(joint.name), "a motor of speed 0 and this strength");
+            report_.changed("<dynamics> friction", jointPlace(joint.name),
+                            "a motor of speed 0 and this strength");
         }
     }
 
     void rules() {
         const Place place{file_.shownName(), 0};
-        if (!extras_.statesFriction)
+        const bool hasShapes = std::any_of(builder_.scene.bodies.begin(), builder_.scene.bodies.end(),
+                                           [](const Body& b) { return !b.shapes.empty(); });
+        if (!extras_.statesFriction && hasShapes)
             report_.changed("friction", place,
-                            "the file states none: " + std::to_string(options_.friction) + " (--friction)");
+                            "the file states none: " + digits({options_.friction}) + " (--friction)");
         if (extras_.isDrake)
             builder_.setMixing(harmonic, "Drake's rule, 2 a b / (a + b)");
         else
@@ -302,15 +324,17 @@ class Robot {
         if (options_.selfCollision) return;
         for (Body& body : builder_.scene.bodies)
             for (auto& shape : body.shapes) shape.filter.group = -1;
-        if (builder_.scene.bodies.size() > 1)
-            report_.changed("contacts", place, "links of the robot do not collide with each other (--self-collision)");
+        if (builder_.scene.bodies.size() > 1 && hasShapes)
+            report_.changed("contacts", place,
+                            "links of the robot do not collide with each other (--self-collision)");
     }
     static scenario::PairCoefficients harmonic(const Surface& a, const Surface& b) {
         const auto mean = [](double x, double y) { return x + y > 0.0 ? 2.0 * x * y / (x + y) : 0.0; };
         const double sliding = mean(a.friction, b.friction);
-        const double still = mean(std::max(a.friction, a.staticFriction), std::max(b.friction, b.staticFriction));
-        return {sliding, a.restitution * b.restitution, still > sliding ? still : 0.0, mean(a.rolling, b.rolling),
-                mean(a.torsional, b.torsional)};
+        const double still =
+            mean(std::max(a.friction, a.staticFriction), std::max(b.friction, b.staticFriction));
+        return {sliding, a.restitution * b.restitution, still > sliding ? still : 0.0,
+                mean(a.rolling, b.rolling), mean(a.torsional, b.torsional)};
     }
 
     const ReadOptions& options_;
@@ -326,7 +350,8 @@ Answer read(const ReadOptions& options) {
     Report report(options.without);
     XmlFile file(options.file);
     if (std::string_view(file.root()->Name()) != "robot")
-        throw Refusal(file.place(*file.root()), std::string("found <") + file.root()->Name() + ">, expected <robot>");
+        throw Refusal(file.place(*file.root()),
+                      std::string("found <") + file.root()->Name() + ">, expected <robot>");
     applyRules(file, urdfRules(), report);
     Extras extras = Extensions(file, options).take();
     if (report.isRefused()) return {"", report};

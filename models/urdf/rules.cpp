@@ -90,7 +90,8 @@ constexpr ElementRule kRules[] = {
     {"drake:proximity_properties/drake:mu_dynamic", "", Read},
     {"drake:mu_dynamic", "value", Read},
     {"drake:proximity_properties/*", "", Feature, "softness", kSoft},
-    {"drake:collision_filter_group", "", Feature, "contact_filters", "Drake's groups of filters are not read"},
+    {"drake:collision_filter_group", "", Feature, "contact_filters",
+     "Drake's groups of filters are not read"},
 };
 
 }  // namespace

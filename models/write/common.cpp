@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <cmath>
-#include <cstdio>
 
 #include "models/write/write.hpp"
 
@@ -13,24 +12,19 @@ using scenario::Mat3;
 using scenario::Scenario;
 using scenario::Vec3;
 
-std::string digits(std::initializer_list<double> values) {
-    std::string out;
-    char buffer[32];
-    for (const double value : values) {
-        std::snprintf(buffer, sizeof buffer, "%.17g", value + 0.0);  // no -0
-        out += (out.empty() ? "" : " ") + std::string(buffer);
-    }
-    return out;
-}
-
 std::string escaped(const std::string& text) {
     std::string out;
     for (const char c : text) {
-        if (c == '<') out += "&lt;";
-        else if (c == '&') out += "&amp;";
-        else if (c == '"') out += "&quot;";
-        else if (static_cast<unsigned char>(c) < 32) out += ' ';
-        else out += c;
+        if (c == '<')
+            out += "&lt;";
+        else if (c == '&')
+            out += "&amp;";
+        else if (c == '"')
+            out += "&quot;";
+        else if (static_cast<unsigned char>(c) < 32)
+            out += ' ';
+        else
+            out += c;
     }
     return out;
 }
@@ -44,7 +38,8 @@ Principal principalOf(const Mat3& tensor) {
                 off = std::max(off, std::abs(a(p, q)));
                 if (a(p, q) == 0.0) continue;
                 const double theta = (a(q, q) - a(p, p)) / (2.0 * a(p, q));
-                const double t = (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+                const double t =
+                    (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
                 const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
                 Mat3 turn = Mat3::diagonal(1.0, 1.0, 1.0);
                 turn(p, p) = turn(q, q) = c;
@@ -87,8 +82,10 @@ JointTree treeOf(const Scenario& s, const std::vector<bool>& mayBeEdge) {
     for (std::size_t i = 0; i < s.joints.size(); ++i) {
         const scenario::Joint& j = s.joints[i];
         const int index = static_cast<int>(i);
-        const bool forwards = isDynamic(j.bodyB) && above(j.bodyB).joint == kNone && !isBelow(j.bodyA, j.bodyB);
-        const bool backwards = isDynamic(j.bodyA) && above(j.bodyA).joint == kNone && !isBelow(j.bodyB, j.bodyA);
+        const bool forwards =
+            isDynamic(j.bodyB) && above(j.bodyB).joint == kNone && !isBelow(j.bodyA, j.bodyB);
+        const bool backwards =
+            isDynamic(j.bodyA) && above(j.bodyA).joint == kNone && !isBelow(j.bodyB, j.bodyA);
         if (mayBeEdge[i] && forwards)
             above(j.bodyB) = {index, j.bodyA, false};
         else if (mayBeEdge[i] && backwards)
@@ -100,7 +97,8 @@ JointTree treeOf(const Scenario& s, const std::vector<bool>& mayBeEdge) {
     while (tree.order.size() < s.bodies.size())
         for (std::size_t b = 0; b < s.bodies.size(); ++b) {
             const TreeJoint& t = tree.above[b];
-            const bool ready = t.joint == kNone || t.parent == kNone || done[static_cast<std::size_t>(t.parent)];
+            const bool ready =
+                t.joint == kNone || t.parent == kNone || done[static_cast<std::size_t>(t.parent)];
             if (done[b] || !ready) continue;
             done[b] = true;
             tree.order.push_back(static_cast<int>(b));
@@ -111,16 +109,20 @@ JointTree treeOf(const Scenario& s, const std::vector<bool>& mayBeEdge) {
 void refuseCommon(const Scenario& s, Report& report) {
     const Place place{s.name, 0};
     if (s.dimension != 3) throw Refusal(place, "a scenario of two dimensions");
-    if (!s.forces.empty()) report.leavesOut("forces", "forces", place, "forces of a scenario have no counterpart");
-    if (!s.events.empty()) report.leavesOut("events", "events", place, "events of a scenario have no counterpart");
+    if (!s.forces.empty())
+        report.leavesOut("forces", "forces", place, "forces of a scenario have no counterpart");
+    if (!s.events.empty())
+        report.leavesOut("events", "events", place, "events of a scenario have no counterpart");
     for (const scenario::Body& b : s.bodies) {
         if (b.linearVelocityKept != 1.0 || b.angularVelocityKept != 1.0)
             report.leavesOut("damping", "damping", place, "damping of the body '" + b.name + "'");
         if (b.gravityScale != 1.0)
-            report.leavesOut("gravity_scale", "gravity_scale", place, "a gravity of its own for '" + b.name + "'");
+            report.leavesOut("gravity_scale", "gravity_scale", place,
+                             "a gravity of its own for '" + b.name + "'");
         for (const scenario::Shape& shape : b.shapes)
             if (shape.surfaceVelocity.moves())
-                report.leavesOut("surface_velocity", "surface_velocity", place, "a moving surface of '" + b.name + "'");
+                report.leavesOut("surface_velocity", "surface_velocity", place,
+                                 "a moving surface of '" + b.name + "'");
     }
     for (const scenario::Joint& j : s.joints)
         if (j.breakForce < 1e299 || j.breakTorque < 1e299)

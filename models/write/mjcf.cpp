@@ -34,7 +34,8 @@ constexpr std::size_t kMostPairs = 20000;  ///< explicit pairs of shapes
 constexpr double kConsistent = 1e-9;       ///< [m/s, rad/s] velocities that joints allow
 
 bool isEdge(JointType type) {
-    return type == JointType::Hinge || type == JointType::Slider || type == JointType::Ball || type == JointType::Fixed;
+    return type == JointType::Hinge || type == JointType::Slider || type == JointType::Ball ||
+           type == JointType::Fixed;
 }
 
 class MjcfWriter {
@@ -51,7 +52,8 @@ class MjcfWriter {
         body_ = bodies(kNone, 1);
         std::string out = "<mujoco model=\"" + escaped(s_.name) + "\">\n";
         out += "  <compiler angle=\"radian\" autolimits=\"true\"/>\n";
-        out += "  <option timestep=\"" + digits({s_.timeSteps.front()}) + "\" gravity=\"" + digits(s_.gravity) + "\">\n";
+        out += "  <option timestep=\"" + digits({s_.timeSteps.front()}) + "\" gravity=\"" +
+               digits(s_.gravity) + "\">\n";
         if (!filtersParents_) out += "    <flag filterparent=\"disable\"/>\n";
         out += "  </option>\n";
         if (!assets_.empty()) out += "  <asset>\n" + assets_ + "  </asset>\n";
@@ -80,8 +82,9 @@ class MjcfWriter {
             const TreeJoint& t = tree_.above[static_cast<std::size_t>(index)];
             if (parentOf(t) != parent) continue;
             const Pose pose = inverse(poseOf(parent)) * body(index).pose;
-            out += indent + "<body name=\"" + nameOf(index) + "\" pos=\"" + digits(pose.position) + "\" quat=\"" +
-                   digits(pose.orientation) + "\"" + (isMocap(index) ? " mocap=\"true\"" : "") + ">\n";
+            out += indent + "<body name=\"" + nameOf(index) + "\" pos=\"" + digits(pose.position) +
+                   "\" quat=\"" + digits(pose.orientation) + "\"" +
+                   (isMocap(index) ? " mocap=\"true\"" : "") + ">\n";
             out += inertial(index, indent + "  ") + joint(index, indent + "  ");
             for (std::size_t k = 0; k < body(index).shapes.size(); ++k) out += geom(index, k, indent + "  ");
             out += sites(index, indent + "  ") + bodies(index, depth + 1) + indent + "</body>\n";
@@ -94,7 +97,8 @@ class MjcfWriter {
         const Body& b = body(index);
         if (b.type != BodyType::Kinematic) return false;
         if (norm(b.velocity) > 0.0 || norm(b.angularVelocity) > 0.0)
-            report_.leavesOut("kinematic_motion", "kinematic", place_, "the given motion of '" + b.name + "'");
+            report_.leavesOut("kinematic_motion", "kinematic", place_,
+                              "the given motion of '" + b.name + "'");
         return true;
     }
 
@@ -102,8 +106,9 @@ class MjcfWriter {
         const Body& b = body(index);
         if (b.type != BodyType::Dynamic) return "";
         const Principal p = principalOf(b.massProperties.inertia);
-        return indent + "<inertial pos=\"" + digits(b.massProperties.centerOfMass) + "\" quat=\"" + digits(p.axes) +
-               "\" mass=\"" + digits({b.massProperties.mass}) + "\" diaginertia=\"" + digits(p.moments) + "\"/>\n";
+        return indent + "<inertial pos=\"" + digits(b.massProperties.centerOfMass) + "\" quat=\"" +
+               digits(p.axes) + "\" mass=\"" + digits({b.massProperties.mass}) + "\" diaginertia=\"" +
+               digits(p.moments) + "\"/>\n";
     }
 
     // ------------------------------------------------------------------------------------------ joints
@@ -115,7 +120,9 @@ class MjcfWriter {
         if (j.type == JointType::Fixed) return "";
         const Vec3 anchor = t.isReversed ? j.anchorA : j.anchorB;
         const Vec3 axis = t.isReversed ? -j.axisA : j.axisB;
-        const char* type = j.type == JointType::Hinge ? "hinge" : j.type == JointType::Slider ? "slide" : "ball";
+        const char* type = j.type == JointType::Hinge    ? "hinge"
+                           : j.type == JointType::Slider ? "slide"
+                                                         : "ball";
         std::string out = indent + "<joint name=\"" + escaped(j.name) + "\" type=\"" + type + "\" pos=\"" +
                           digits(anchor) + "\"";
         if (j.type != JointType::Ball) out += " axis=\"" + digits(axis) + "\"";
@@ -133,8 +140,10 @@ class MjcfWriter {
         if (a.mode == AxisMode::Limited)
             out += " range=\"" + digits({std::max(a.lower, -1e10), std::min(a.upper, 1e10)}) + "\"";
         if (a.frequency > 0.0)
-            report_.leavesOut("frequency_springs", "spring", place_, "a spring given by a frequency, of " + what);
-        if (a.stiffness > 0.0) out += " stiffness=\"" + digits({a.stiffness}) + "\" springref=\"" + digits({a.target}) + "\"";
+            report_.leavesOut("frequency_springs", "spring", place_,
+                              "a spring given by a frequency, of " + what);
+        if (a.stiffness > 0.0)
+            out += " stiffness=\"" + digits({a.stiffness}) + "\" springref=\"" + digits({a.target}) + "\"";
         if (a.damping > 0.0) out += " damping=\"" + digits({a.damping}) + "\"";
         if (a.hasMotor() && a.motorSpeed != 0.0)
             report_.leavesOut("motors", "motor", place_, "a motor of " + what);
@@ -147,7 +156,8 @@ class MjcfWriter {
         const std::string names = "body1=\"" + nameOf(j.bodyB) + "\"" +
                                   (j.bodyA == kNone ? "" : " body2=\"" + nameOf(j.bodyA) + "\"");
         if (j.type == JointType::Ball && j.axes[0].mode == AxisMode::Usual && !j.axes[0].hasSpring())
-            equalities_ += "    <connect name=\"" + escaped(j.name) + "\" " + names + " anchor=\"" + digits(j.anchorB) + "\"/>\n";
+            equalities_ += "    <connect name=\"" + escaped(j.name) + "\" " + names + " anchor=\"" +
+                           digits(j.anchorB) + "\"/>\n";
         else if (j.type == JointType::Fixed)
             equalities_ += "    <weld name=\"" + escaped(j.name) + "\" " + names + "/>\n";
         else if (j.type == JointType::Distance)
@@ -174,7 +184,8 @@ class MjcfWriter {
         if (a.hasSpring())
             tendons_ += " stiffness=\"" + digits({a.stiffness}) + "\" damping=\"" + digits({a.damping}) +
                         "\" springlength=\"" + digits({a.target}) + "\"";
-        tendons_ += ">\n      <site site=\"" + name + "_a\"/>\n      <site site=\"" + name + "_b\"/>\n    </spatial>\n";
+        tendons_ += ">\n      <site site=\"" + name + "_a\"/>\n      <site site=\"" + name +
+                    "_b\"/>\n    </spatial>\n";
     }
 
     std::string sites(int index, const std::string& indent) const {
@@ -196,7 +207,8 @@ class MjcfWriter {
         const auto sized = [](const char* type, std::initializer_list<double> size) {
             return std::string(" type=\"") + type + "\" size=\"" + digits(size) + "\"";
         };
-        if (const auto* g = std::get_if<scenario::Sphere>(&shape.geometry)) kind = sized("sphere", {g->radius});
+        if (const auto* g = std::get_if<scenario::Sphere>(&shape.geometry))
+            kind = sized("sphere", {g->radius});
         if (const auto* g = std::get_if<scenario::Box>(&shape.geometry))
             kind = sized("box", {g->halfExtents.x, g->halfExtents.y, g->halfExtents.z});
         if (const auto* g = std::get_if<scenario::Ellipsoid>(&shape.geometry))
@@ -222,12 +234,14 @@ class MjcfWriter {
             report_.changed("hull", place_, "MuJoCo keeps the corners of hulls in single precision");
         }
         if (kind.empty()) {
-            report_.leavesOut(std::string(geometryName(shape.geometry, 3)) + "_shapes", "shapes", place_,
-                              std::string("a ") + geometryName(shape.geometry, 3) + " of '" + body(index).name + "'");
+            report_.leavesOut(
+                std::string(geometryName(shape.geometry, 3)) + "_shapes", "shapes", place_,
+                std::string("a ") + geometryName(shape.geometry, 3) + " of '" + body(index).name + "'");
             return "";
         }
-        return indent + "<geom name=\"" + geomName(index, number) + "\"" + kind + " pos=\"" + digits(pose.position) +
-               "\" quat=\"" + digits(pose.orientation) + "\"" + surface(shape) + filter(index, shape) + "/>\n";
+        return indent + "<geom name=\"" + geomName(index, number) + "\"" + kind + " pos=\"" +
+               digits(pose.position) + "\" quat=\"" + digits(pose.orientation) + "\"" + surface(shape) +
+               filter(index, shape) + "/>\n";
     }
     static Quat turnOfZ(const Vec3& n) {
         const Vec3 axis = cross({0.0, 0.0, 1.0}, n);
@@ -244,7 +258,9 @@ class MjcfWriter {
         if (c.torsionalFriction > 0.0) return 4;
         return c.friction > 0.0 ? 3 : 1;
     }
-    PairCoefficients own(const Shape& shape) const { return pairCoefficients(s_, shape.material, shape.material); }
+    PairCoefficients own(const Shape& shape) const {
+        return pairCoefficients(s_, shape.material, shape.material);
+    }
     std::string surface(const Shape& shape) {
         const PairCoefficients c = own(shape);
         return " condim=\"" + std::to_string(dimensionOf(c)) + "\" friction=\"" +
@@ -261,7 +277,8 @@ class MjcfWriter {
     void collectFilters() {
         for (const Body& b : s_.bodies)
             for (const Shape& shape : b.shapes)
-                if (const Filter f{shape.filter, b.collides}; std::find(filters_.begin(), filters_.end(), f) == filters_.end())
+                if (const Filter f{shape.filter, b.collides};
+                    std::find(filters_.begin(), filters_.end(), f) == filters_.end())
                     filters_.push_back(f);
         if (filters_.size() > kMostFilters)
             report_.leavesOut("contact_filters", "layers", place_, "more than 31 filters of contacts");
@@ -286,7 +303,8 @@ class MjcfWriter {
     int weldOf(int index) const {
         while (index != kNone) {
             const TreeJoint& t = tree_.above[static_cast<std::size_t>(index)];
-            if (t.joint == kNone || s_.joints[static_cast<std::size_t>(t.joint)].type != JointType::Fixed) break;
+            if (t.joint == kNone || s_.joints[static_cast<std::size_t>(t.joint)].type != JointType::Fixed)
+                break;
             index = t.parent;
         }
         return isStatic(index) ? kNone : index;
@@ -343,7 +361,8 @@ class MjcfWriter {
                     }
             }
         if (count > kMostPairs)
-            throw Refusal(place_, "more than 20000 pairs of shapes whose friction is not the larger of the two");
+            throw Refusal(place_,
+                          "more than 20000 pairs of shapes whose friction is not the larger of the two");
         return out;
     }
     std::string pair(int a, std::size_t k, int b, std::size_t l) {
@@ -351,9 +370,11 @@ class MjcfWriter {
         if (!scenario::mayTouch(one, two)) return "";
         const PairCoefficients law = pairCoefficients(s_, one.material, two.material);
         if (law.restitution > 0.0)
-            report_.leavesOut("restitution", "restitution", place_, "MuJoCo has no coefficient of restitution");
+            report_.leavesOut("restitution", "restitution", place_,
+                              "MuJoCo has no coefficient of restitution");
         if (law.staticFriction > law.friction)
-            report_.leavesOut("static_friction", "static_friction", place_, "MuJoCo has one coefficient of friction");
+            report_.leavesOut("static_friction", "static_friction", place_,
+                              "MuJoCo has one coefficient of friction");
         const PairCoefficients p = own(one), q = own(two);
         const bool same = law.friction == std::max(p.friction, q.friction) &&
                           law.torsionalFriction == std::max(p.torsionalFriction, q.torsionalFriction) &&
@@ -361,7 +382,8 @@ class MjcfWriter {
         if (same) return "";
         return "    <pair geom1=\"" + geomName(a, k) + "\" geom2=\"" + geomName(b, l) + "\" condim=\"" +
                std::to_string(dimensionOf(law)) + "\" friction=\"" +
-               digits({law.friction, law.friction, law.torsionalFriction, law.rollingFriction, law.rollingFriction}) +
+               digits({law.friction, law.friction, law.torsionalFriction, law.rollingFriction,
+                       law.rollingFriction}) +
                "\"/>\n";
     }
 
@@ -385,7 +407,9 @@ class MjcfWriter {
                "\"/>\n  </keyframe>\n";
     }
     void inTreeOrder(int parent, std::string& q, std::string& v) {
-        const auto add = [](std::string& to, const std::string& text) { to += (to.empty() ? "" : " ") + text; };
+        const auto add = [](std::string& to, const std::string& text) {
+            to += (to.empty() ? "" : " ") + text;
+        };
         for (const int index : tree_.order) {
             const TreeJoint& t = tree_.above[static_cast<std::size_t>(index)];
             if (parentOf(t) != parent) continue;
@@ -398,7 +422,8 @@ class MjcfWriter {
                 const Joint& j = s_.joints[static_cast<std::size_t>(t.joint)];
                 const Vec3 axis = rotate(b.pose.orientation, t.isReversed ? -j.axisA : j.axisB);
                 const Vec3 anchor = b.pose * (t.isReversed ? j.anchorA : j.anchorB);
-                Vec3 spin = spinOf(index) - spinOf(parent), slide = velocityAt(index, anchor) - velocityAt(parent, anchor);
+                Vec3 spin = spinOf(index) - spinOf(parent),
+                     slide = velocityAt(index, anchor) - velocityAt(parent, anchor);
                 if (j.type == JointType::Ball) {
                     add(q, "1 0 0 0");
                     add(v, digits(rotateInverse(b.pose.orientation, spin)));
@@ -410,8 +435,9 @@ class MjcfWriter {
                     along = along - dot(along, axis) * axis;
                 }
                 if (norm(spin) > kConsistent || norm(slide) > kConsistent)
-                    report_.leavesOut("velocities", "velocity", place_,
-                                      "a velocity of '" + b.name + "' that the joint '" + j.name + "' does not allow");
+                    report_.leavesOut(
+                        "velocities", "velocity", place_,
+                        "a velocity of '" + b.name + "' that the joint '" + j.name + "' does not allow");
             }
             inTreeOrder(index, q, v);
         }

@@ -36,7 +36,8 @@ Vec3 rollPitchYaw(const scenario::Quat& q) {
 }
 
 std::string origin(const Pose& pose) {
-    return "<origin xyz=\"" + digits(pose.position) + "\" rpy=\"" + digits(rollPitchYaw(pose.orientation)) + "\"/>";
+    return "<origin xyz=\"" + digits(pose.position) + "\" rpy=\"" + digits(rollPitchYaw(pose.orientation)) +
+           "\"/>";
 }
 
 class UrdfWriter {
@@ -59,7 +60,8 @@ class UrdfWriter {
 
     std::string write() {
         refuse();
-        std::string out = "<?xml version=\"1.0\"?>\n<robot name=\"" + escaped(s_.name) + "\">\n  <link name=\"world\"/>\n";
+        std::string out =
+            "<?xml version=\"1.0\"?>\n<robot name=\"" + escaped(s_.name) + "\">\n  <link name=\"world\"/>\n";
         for (const int index : tree_.order) out += link(index) + joint(index);
         return out + "</robot>\n";
     }
@@ -80,12 +82,15 @@ class UrdfWriter {
             if (b.type == BodyType::Kinematic)
                 report_.leavesOut("kinematic", "kinematic", place_, "the given motion of '" + b.name + "'");
             if (norm(b.velocity) > 0.0 || norm(b.angularVelocity) > 0.0)
-                report_.leavesOut("velocities", "velocity", place_, "URDF has no velocities ('" + b.name + "')");
+                report_.leavesOut("velocities", "velocity", place_,
+                                  "URDF has no velocities ('" + b.name + "')");
         }
         if (!s_.materials.empty())
             report_.leavesOut("friction", "materials", place_, "URDF has no friction and restitution");
-        if (!s_.layers.empty()) report_.leavesOut("contact_filters", "layers", place_, "URDF has no contact filters");
-        report_.changed("gravity", place_, "URDF has no gravity: that of this scenario is " + digits(s_.gravity));
+        if (!s_.layers.empty())
+            report_.leavesOut("contact_filters", "layers", place_, "URDF has no contact filters");
+        report_.changed("gravity", place_,
+                        "URDF has no gravity: that of this scenario is " + digits(s_.gravity));
     }
 
     std::string link(int index) {
@@ -96,10 +101,10 @@ class UrdfWriter {
             const scenario::Mat3 turn = toMatrix(inFrame.orientation);
             const scenario::Mat3 i = turn * b.massProperties.inertia * transpose(turn);
             out += "    <inertial>\n      " + origin({inFrame * b.massProperties.centerOfMass, {}}) +
-                   "\n      <mass value=\"" + digits({b.massProperties.mass}) + "\"/>\n      <inertia ixx=\"" +
-                   digits({i(0, 0)}) + "\" ixy=\"" + digits({i(0, 1)}) + "\" ixz=\"" + digits({i(0, 2)}) + "\" iyy=\"" +
-                   digits({i(1, 1)}) + "\" iyz=\"" + digits({i(1, 2)}) + "\" izz=\"" + digits({i(2, 2)}) +
-                   "\"/>\n    </inertial>\n";
+                   "\n      <mass value=\"" + digits({b.massProperties.mass}) +
+                   "\"/>\n      <inertia ixx=\"" + digits({i(0, 0)}) + "\" ixy=\"" + digits({i(0, 1)}) +
+                   "\" ixz=\"" + digits({i(0, 2)}) + "\" iyy=\"" + digits({i(1, 1)}) + "\" iyz=\"" +
+                   digits({i(1, 2)}) + "\" izz=\"" + digits({i(2, 2)}) + "\"/>\n    </inertial>\n";
         }
         for (const scenario::Shape& shape : b.shapes) out += collision(shape, inFrame, b);
         return out + "  </link>\n";
@@ -113,7 +118,8 @@ class UrdfWriter {
         if (const auto* g = std::get_if<scenario::Box>(&shape.geometry))
             kind = "<box size=\"" + digits(2.0 * g->halfExtents) + "\"/>";
         if (const auto* g = std::get_if<scenario::Cylinder>(&shape.geometry)) {
-            kind = "<cylinder radius=\"" + digits({g->radius}) + "\" length=\"" + digits({2.0 * g->halfLength}) + "\"/>";
+            kind = "<cylinder radius=\"" + digits({g->radius}) + "\" length=\"" +
+                   digits({2.0 * g->halfLength}) + "\"/>";
             pose = pose * inverse(SceneBuilder::fromZ());
         }
         if (kind.empty()) {
@@ -122,7 +128,8 @@ class UrdfWriter {
             return "";
         }
         if (!b.collides) return "";
-        return "    <collision>\n      " + origin(pose) + "\n      <geometry>" + kind + "</geometry>\n    </collision>\n";
+        return "    <collision>\n      " + origin(pose) + "\n      <geometry>" + kind +
+               "</geometry>\n    </collision>\n";
     }
 
     std::string joint(int index) {
@@ -135,18 +142,21 @@ class UrdfWriter {
         if (j && j->type == JointType::Fixed) type = "fixed";
         if (j && j->type != JointType::Fixed) {
             const scenario::JointAxis& a = j->axes[0];
-            const bool isLimited = a.mode == AxisMode::Limited && (a.lower > -kUnlimited || a.upper < kUnlimited);
+            const bool isLimited =
+                a.mode == AxisMode::Limited && (a.lower > -kUnlimited || a.upper < kUnlimited);
             type = j->type == JointType::Slider ? "prismatic" : isLimited ? "revolute" : "continuous";
             inner += "    <axis xyz=\"" + digits(t.isReversed ? -j->axisA : j->axisB) + "\"/>\n";
             if (type != "continuous")
-                inner += "    <limit lower=\"" + digits({isLimited ? std::max(a.lower, -kUnlimited) : -kUnlimited}) +
-                         "\" upper=\"" + digits({isLimited ? std::min(a.upper, kUnlimited) : kUnlimited}) +
+                inner += "    <limit lower=\"" +
+                         digits({isLimited ? std::max(a.lower, -kUnlimited) : -kUnlimited}) + "\" upper=\"" +
+                         digits({isLimited ? std::min(a.upper, kUnlimited) : kUnlimited}) +
                          "\" effort=\"0\" velocity=\"0\"/>\n";
             inner += dynamics(*j);
         }
-        return "  <joint name=\"" + (j ? escaped(j->name) : escaped(body(index).name) + "_base") + "\" type=\"" + type +
-               "\">\n    " + origin(inverse(parent) * frame(index)) + "\n    <parent link=\"" + parentName +
-               "\"/>\n    <child link=\"" + escaped(body(index).name) + "\"/>\n" + inner + "  </joint>\n";
+        return "  <joint name=\"" + (j ? escaped(j->name) : escaped(body(index).name) + "_base") +
+               "\" type=\"" + type + "\">\n    " + origin(inverse(parent) * frame(index)) +
+               "\n    <parent link=\"" + parentName + "\"/>\n    <child link=\"" + escaped(body(index).name) +
+               "\"/>\n" + inner + "  </joint>\n";
     }
 
     std::string dynamics(const Joint& j) {
@@ -154,10 +164,12 @@ class UrdfWriter {
         const std::string what = "the joint '" + j.name + "'";
         if (a.stiffness > 0.0 || a.frequency > 0.0)
             report_.leavesOut("springs", "spring", place_, "URDF has no springs (" + what + ")");
-        if (a.hasMotor() && a.motorSpeed != 0.0) report_.leavesOut("motors", "motor", place_, "a motor of " + what);
+        if (a.hasMotor() && a.motorSpeed != 0.0)
+            report_.leavesOut("motors", "motor", place_, "a motor of " + what);
         const double friction = a.motorSpeed == 0.0 ? a.motorMaxForce : 0.0;
         if (!(a.damping > 0.0 || friction > 0.0)) return "";
-        return "    <dynamics damping=\"" + digits({a.damping}) + "\" friction=\"" + digits({friction}) + "\"/>\n";
+        return "    <dynamics damping=\"" + digits({a.damping}) + "\" friction=\"" + digits({friction}) +
+               "\"/>\n";
     }
 
     const Scenario& s_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "models/common/report.hpp"
+#include "models/common/text.hpp"
 #include "scenarios/model/scenario.hpp"
 
 namespace rigor::models {
@@ -40,8 +41,6 @@ struct Principal {
 };
 Principal principalOf(const scenario::Mat3& tensor);
 
-/// Numbers with 17 digits and spaces between.
-std::string digits(std::initializer_list<double> values);
 inline std::string digits(const scenario::Vec3& v) {
     return digits({v.x, v.y, v.z});
 }
