@@ -21,8 +21,6 @@ namespace {
 using ::testing::HasSubstr;
 using namespace scenario;
 
-constexpr double kTolerance = 1e-12;
-
 Pose convert(const ignition::math::Pose3d& p) {
     return {{p.Pos().X(), p.Pos().Y(), p.Pos().Z()}, {p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z()}};
 }

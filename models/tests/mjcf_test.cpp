@@ -18,8 +18,6 @@ namespace {
 using ::testing::HasSubstr;
 using namespace scenario;
 
-constexpr double kTolerance = 1e-12;
-
 struct Deleter {
     void operator()(mjModel* m) const { mj_deleteModel(m); }
     void operator()(mjData* d) const { mj_deleteData(d); }

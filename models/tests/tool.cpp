@@ -80,8 +80,9 @@ void expectSameJoint(const Scenario& s, const Joint& a, const Scenario& t, const
     EXPECT_NEAR(a.length, b.length, tolerance) << what;
     for (std::size_t k = 0; k < a.axes.size(); ++k) {
         EXPECT_EQ(a.axes[k].mode, b.axes[k].mode) << what;
-        if (std::abs(a.axes[k].lower) < 1e6) EXPECT_NEAR(a.axes[k].lower, b.axes[k].lower, tolerance) << what;
-        if (std::abs(a.axes[k].upper) < 1e6) EXPECT_NEAR(a.axes[k].upper, b.axes[k].upper, tolerance) << what;
+        const auto end = [](double value) { return std::abs(value) < 1e6 ? value : 1e6; };
+        EXPECT_NEAR(end(a.axes[k].lower), end(b.axes[k].lower), tolerance) << what;
+        EXPECT_NEAR(end(a.axes[k].upper), end(b.axes[k].upper), tolerance) << what;
         EXPECT_NEAR(a.axes[k].stiffness, b.axes[k].stiffness, tolerance) << what;
         EXPECT_NEAR(a.axes[k].damping, b.axes[k].damping, tolerance) << what;
         EXPECT_NEAR(a.axes[k].motorMaxForce, b.axes[k].motorMaxForce, tolerance) << what;

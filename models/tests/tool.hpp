@@ -14,6 +14,9 @@
 
 namespace rigor::models::testing {
 
+/// Relative: rounding of frames and of text.
+inline constexpr double kTolerance = 1e-12;
+
 struct Outcome {
     int code = -1;
     std::string out;  ///< standard output

@@ -32,6 +32,8 @@ using scenario::Quat;
 using scenario::Vec3;
 using tinyxml2::XMLElement;
 
+constexpr double kUnlimited = 1e6;  ///< limits beyond it are none
+
 /// The library's messages, which it prints instead of throwing.
 class Messages : public console_bridge::OutputHandler {
   public:
@@ -296,10 +298,11 @@ class Robot {
 
     void control(const urdf::Joint& joint, Joint& made) {
         auto& axis = made.axes[0];
-        if (joint.limits && joint.type != urdf::Joint::CONTINUOUS) {
+        const bool hasLimits = joint.limits && joint.type != urdf::Joint::CONTINUOUS;
+        if (hasLimits && (joint.limits->lower > -kUnlimited || joint.limits->upper < kUnlimited)) {
             axis.mode = AxisMode::Limited;
-            axis.lower = joint.limits->lower;
-            axis.upper = joint.limits->upper;
+            if (joint.limits->lower > -kUnlimited) axis.lower = joint.limits->lower;
+            if (joint.limits->upper < kUnlimited) axis.upper = joint.limits->upper;
         }
         if (!joint.dynamics) return;
         axis.damping = joint.dynamics->damping;
