@@ -37,6 +37,7 @@ TEST(Tree, EveryFolderHasAReadme) {
     for (const char* folder : {"engine",
                                "adapters",
                                "scenarios",
+                               "models",
                                "validation",
                                "reports",
                                "reports/web",
