@@ -18,10 +18,10 @@ export interface PictureOptions {
   labels: boolean;
 }
 
-type Point = [x: number, y: number];
+export type Point = [x: number, y: number];
 
 /** Projection from the world to the picture [px], and distance of a point from the eye. */
-interface Projection {
+export interface Projection {
   at: (p: Vec3) => Point;
   depth: (p: Vec3) => number;
   scale: number; // [px/m]
@@ -31,7 +31,7 @@ interface Projection {
 const yaw = (28 * Math.PI) / 180;
 const pitch = (20 * Math.PI) / 180;
 
-function projection(planar: boolean, middle: Vec3, radius: number, width: number, height: number): Projection {
+export function projection(planar: boolean, middle: Vec3, radius: number, width: number, height: number): Projection {
   const scale = (0.5 * Math.min(width, height * 1.2)) / radius;
   const [c, s] = planar ? [1, 0] : [Math.cos(yaw), Math.sin(yaw)];
   const [cp, sp] = planar ? [1, 0] : [Math.cos(pitch), Math.sin(pitch)];
@@ -80,7 +80,7 @@ interface Drawn {
   node: SVGElement;
 }
 
-function brightness(corners: Vec3[], towards: Vec3): number {
+export function brightness(corners: Vec3[], towards: Vec3): number {
   const [a, b, c] = corners as [Vec3, Vec3, Vec3];
   const u: Vec3 = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
   const v: Vec3 = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];

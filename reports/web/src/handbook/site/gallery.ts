@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The gallery: scenes of the library as `rigor draw` shows them (reports/handbook/gallery.json), and the reference
+// report of this version where it has been made.
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdirSync, readFileSync, statSync } from 'node:fs';
+import { join } from 'node:path';
+import type { Json } from '../../replay/json.ts';
+import { escaped } from './markup.ts';
+import { scenarioFile } from './record.ts';
+import { type GeneratedPage, versionOf } from './site.ts';
+
+interface Picture {
+  scenario: string;
+  engine: string;
+  at: number; // [s]
+  show?: string;
+  turn?: number;
+  lift?: number;
+}
+
+export const readGallery = (root: string): Picture[] =>
+  JSON.parse(readFileSync(join(root, 'reports/handbook/gallery.json'), 'utf8')) as Picture[];
+
+const drawing = (p: Picture, file: string, out: string): string[] => [
+  'draw',
+  file,
+  '--engine',
+  p.engine,
+  '--at',
+  String(p.at),
+  '--show',
+  p.show ?? 'outline,joint',
+  ...(p.turn === undefined ? [] : ['--turn', String(p.turn)]),
+  ...(p.lift === undefined ? [] : ['--lift', String(p.lift)]),
+  '--out',
+  out,
+];
+
+export function galleryPage(root: string, program: string, folder: string): GeneratedPage {
+  mkdirSync(folder, { recursive: true });
+  const cards = readGallery(root).map((picture) => {
+    const source = scenarioFile(root, picture.scenario);
+    const name = `${picture.scenario}.svg`;
+    const out = join(folder, name);
+    const newest = Math.max(statSync(source).mtimeMs, statSync(program).mtimeMs);
+    if (!existsSync(out) || statSync(out).mtimeMs < newest) {
+      const ended = spawnSync(program, drawing(picture, source, out), { encoding: 'utf8', timeout: 120_000 });
+      if (ended.status !== 0) throw new Error(`gallery: ${picture.scenario}: ${ended.stderr}`);
+    }
+    const scenario = JSON.parse(readFileSync(source, 'utf8')) as Json;
+    const command = `./rigor ${drawing(picture, picture.scenario, name).join(' ')}`;
+    return `<article class="card"><img src="../pictures/${name}" alt="${escaped(scenario.title)}" loading="lazy"><div class="below"><h3>${escaped(scenario.title)}</h3><p class="muted"><a href="reference/scenarios.html#${picture.scenario}"><code>${picture.scenario}</code></a>, ${escaped(picture.engine)}, ${picture.at} s</p><details><summary>command</summary><code>${escaped(command)}</code></details></div></article>`;
+  });
+  const version = versionOf(root);
+  const report = existsSync(join(folder, '../report/index.html'))
+    ? '<p><a href="../report/index.html">The reference report of this version</a>: every scenario of the suite <code>standard</code> on every installed engine.</p>'
+    : '<p><code>./rigor docs --report</code> also makes the reference report of this version: every scenario of the suite <code>standard</code> on every installed engine. It takes some minutes and stands in the folder <code>report</code> of this site.</p>';
+  return {
+    path: 'en/gallery.html',
+    title: 'Gallery',
+    html: `<h1>Gallery</h1>\n<p>Scenes of the library in version ${escaped(version)}, each drawn by <code>rigor draw</code>. <code>./rigor docs</code> makes them all.</p>\n${report}\n<div class="cards">${cards.join('\n')}</div>`,
+  };
+}
