@@ -100,7 +100,7 @@ class Run {
 
 const median = (values: number[]) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)] ?? 0;
 
-/** Middle and radius of what all pictures show: where bodies are at the start of each run, and during the last run. */
+/** What all pictures show: where bodies are during the last run, and near that during the others. */
 function framing(runs: Run[], view: number[] | null): { middle: Vec3; width: number; height: number } {
   if (view?.length === 4) {
     const [x0, y0, x1, y1] = view as [number, number, number, number];
@@ -119,9 +119,20 @@ function framing(runs: Run[], view: number[] | null): { middle: Vec3; width: num
       }
     });
   };
-  for (const run of runs) take(run, 0);
   const sound = runs.at(-1) as Run;
-  for (let i = 0; i < 24; ++i) take(sound, Math.floor((i / 23) * (sound.times.length - 1)));
+  const frames = (run: Run, count: number) => {
+    for (let i = 0; i < count; ++i) take(run, Math.floor((i / (count - 1)) * (run.times.length - 1)));
+  };
+  for (const run of runs) take(run, 0);
+  frames(sound, 24);
+  // The other runs may leave the picture, but not at once: they get as much room again on each side.
+  const room = Math.max(...high.map((v, k) => v - (low[k] as number)), 0.2) * 0.5;
+  const [least, most] = [low.map((v) => v - room), high.map((v) => v + room)];
+  for (const run of runs) frames(run, 24);
+  for (let k = 0; k < 3; ++k) {
+    low[k] = Math.max(low[k] as number, least[k] as number);
+    high[k] = Math.min(high[k] as number, most[k] as number);
+  }
   for (const joint of sound.scene.joints)
     if (joint.a < 0)
       for (let k = 0; k < 3; ++k) {
@@ -132,8 +143,8 @@ function framing(runs: Run[], view: number[] | null): { middle: Vec3; width: num
   const middle = low.map((v, k) => (v + (high[k] as number)) / 2) as Vec3;
   const size = low.map((v, k) => Math.max(0.2, (high[k] as number) - v)) as Vec3;
   const deep = sound.scene.dimension === 3 ? 0.6 * size[2] : 0;
-  const room = 1.18;
-  return { middle, width: room * (size[0] + deep), height: room * (size[1] + deep * 0.6) };
+  const margin = 1.18;
+  return { middle, width: margin * (size[0] + deep), height: margin * (size[1] + deep * 0.6) };
 }
 
 function tint(color: string, lit: number): string {

@@ -51,7 +51,7 @@ export function readSceneFence(body: string): SceneFence {
   const get = fields(body);
   const scenario = get('scenario')[0];
   const sides = get('side').map((line): SceneSide => {
-    const [label = '', engine = '', ...own] = line.split('|').map((part) => part.trim());
+    const [label = '', engine = '', ...own] = line.split(' | ').map((part) => part.trim());
     if (!label || !engine)
       throw new Error(`scene: "side: ${line}" is not "LABEL | ENGINE [| scenario=... | set=... | dt=...]"`);
     const value = (key: string) => own.filter((o) => o.startsWith(`${key}=`)).map((o) => o.slice(key.length + 1));
@@ -103,6 +103,6 @@ export function readExercise(body: string): ExerciseFence {
 /** The command that repeats a run. */
 export function commandOf(run: RunRequest): string {
   const quoted = (text: string) => (/^[\w./:=,@-]+$/.test(text) ? text : `'${text}'`);
-  const sets = run.set.length > 0 ? ` --set ${run.set.map(quoted).join(' ')}` : '';
+  const sets = run.set.map((s) => ` --set ${quoted(s)}`).join('');
   return `./rigor run ${run.scenario} --engine ${quoted(run.engine)}${run.dt ? ` --dt ${run.dt}` : ''}${sets}`;
 }

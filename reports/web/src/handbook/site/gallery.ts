@@ -42,7 +42,7 @@ export function galleryPage(root: string, program: string, folder: string): Gene
   mkdirSync(folder, { recursive: true });
   const cards = readGallery(root).map((picture) => {
     const source = scenarioFile(root, picture.scenario);
-    const name = `${picture.scenario}.svg`;
+    const name = `${picture.scenario}.png`;
     const out = join(folder, name);
     const newest = Math.max(statSync(source).mtimeMs, statSync(program).mtimeMs);
     if (!existsSync(out) || statSync(out).mtimeMs < newest) {

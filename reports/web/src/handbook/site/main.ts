@@ -34,6 +34,11 @@ if (!root || !output || !program) {
   console.error('main ROOT OUTPUT PROGRAM');
   process.exit(2);
 }
-const errors = build(root, output, program);
+let errors: string[];
+try {
+  errors = build(root, output, program);
+} catch (error) {
+  errors = [error instanceof Error ? error.message : String(error)];
+}
 for (const error of errors) console.error(`handbook: ${error}`);
 process.exit(errors.length > 0 ? 1 : 0);

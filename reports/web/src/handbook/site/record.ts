@@ -160,7 +160,7 @@ export class Recorder {
       const csv = join(temporary, 'motion.csv');
       const given = ['run', file, '--engine', run.engine, '--json', '--csv', csv, '--log', 'contacts'];
       if (run.dt) given.push('--dt', run.dt);
-      if (run.set.length > 0) given.push('--set', ...run.set);
+      for (const item of run.set) given.push('--set', item);
       const ended = spawnSync(this.#program, given, { encoding: 'utf8', maxBuffer: 1 << 28, timeout: 300_000 });
       if (!existsSync(csv) || !ended.stdout?.trim())
         throw new Error(`${run.scenario} with ${run.engine} did not run: ${ended.stderr?.slice(0, 600)}`);

@@ -47,6 +47,7 @@ export function makeSite(root: string, recorder: Recorder | null, generated: rea
   const sourcePath = (file: string) => `source/${file}.html`;
 
   const pages: SitePage[] = [];
+  const errors: string[] = [];
   for (const language of languages)
     for (const name of contents.parts.flatMap((part) => part.pages)) {
       if (!hasPage(root, language, name)) continue;
@@ -81,9 +82,12 @@ export function makeSite(root: string, recorder: Recorder | null, generated: rea
         }
         pages.push({ language, name, path, page });
       } catch (error) {
-        throw new Error(`${language}/${name}.md: ${error instanceof Error ? error.message : String(error)}`);
+        const message = error instanceof Error ? error.message : String(error);
+        errors.push(`${language}/${name}.md: ${message.replace(/\nPlease report this to .*/, '')}`);
       }
     }
+
+  if (errors.length > 0) throw new Error(errors.join('\nhandbook: '));
 
   const version = versionOf(root);
   const items = (language: Language) => {
