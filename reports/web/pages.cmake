@@ -31,6 +31,17 @@ add_custom_command(
     COMMENT "Bundling the pages"
     VERBATIM)
 
+# The handbook (reports/handbook), by `./rigor docs`: not part of a build.
+add_custom_target(
+    docs
+    COMMAND ${RIGOR_NODE} handbook.mjs ${PROJECT_BINARY_DIR}/handbook $<TARGET_FILE:rigor>
+    DEPENDS ${installed}
+    WORKING_DIRECTORY ${web}
+    COMMENT "Writing the handbook"
+    USES_TERMINAL
+    VERBATIM)
+add_dependencies(docs rigor_program)
+
 if(NOT RIGOR_TESTS)
     return()
 endif()

@@ -71,7 +71,13 @@ function mountFilters(): void {
     });
 }
 
+/** On a narrow screen the contents are folded. */
+function mountContents(): void {
+  if (matchMedia('(max-width: 60rem)').matches) document.querySelector('nav.contents details')?.removeAttribute('open');
+}
+
 document.addEventListener('DOMContentLoaded', () => {
+  mountContents();
   mountTheme();
   mountCopies();
   mountFilters();

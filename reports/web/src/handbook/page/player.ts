@@ -147,6 +147,28 @@ function framing(runs: Run[], view: number[] | null): { middle: Vec3; width: num
   return { middle, width: margin * (size[0] + deep), height: margin * (size[1] + deep * 0.6) };
 }
 
+/** A static box that is larger than what is looked at, cut to that: floors have edges in the picture, then. */
+function cut(body: SceneBody, middle: Vec3, reach: number): SceneBody {
+  const upright = Math.abs(body.first.orientation[0]) > 1 - 1e-9;
+  return {
+    ...body,
+    shapes: body.shapes.map((shape) => {
+      const { geometry, pose } = shape;
+      if (geometry.kind !== 'box' || !upright || Math.abs(pose.orientation[0]) < 1 - 1e-9) return shape;
+      const [half, position] = [[...geometry.half] as Vec3, [...pose.position] as Vec3];
+      for (const k of [0, 2] as const) {
+        const at = body.first.position[k] + position[k];
+        const low = Math.max(at - half[k], middle[k] - reach);
+        const high = Math.min(at + half[k], middle[k] + reach);
+        if (high <= low) return shape;
+        half[k] = (high - low) / 2;
+        position[k] = (high + low) / 2 - body.first.position[k];
+      }
+      return { ...shape, geometry: { ...geometry, half }, pose: { ...pose, position } };
+    }),
+  };
+}
+
 function tint(color: string, lit: number): string {
   return `color-mix(in srgb, ${color} ${lit}%, black)`;
 }
@@ -156,20 +178,17 @@ class Panel {
   readonly #run: Run;
   readonly #trail: number[];
   readonly #showContacts: boolean;
+  readonly #side: boolean; // seen from the front, without depth
   readonly #frame: ReturnType<typeof framing>;
 
-  constructor(
-    canvas: HTMLCanvasElement,
-    run: Run,
-    frame: ReturnType<typeof framing>,
-    trail: string[],
-    contacts: boolean,
-  ) {
+  constructor(canvas: HTMLCanvasElement, run: Run, frame: ReturnType<typeof framing>, figure: DOMStringMap) {
     this.#canvas = canvas;
     this.#run = run;
     this.#frame = frame;
+    const trail = figure.trail ? (JSON.parse(figure.trail) as string[]) : [];
     this.#trail = trail.map((name) => run.bodies.findIndex((b) => b.name === name)).filter((b) => b >= 0);
-    this.#showContacts = contacts;
+    this.#showContacts = figure.contacts === 'yes';
+    this.#side = figure.side === 'yes';
   }
 
   draw(time: number): void {
@@ -186,13 +205,15 @@ class Panel {
     g.setTransform(dense, 0, 0, dense, 0, 0);
     g.clearRect(0, 0, width, height);
     const run = this.#run;
-    const planar = run.scene.dimension === 2;
+    const planar = run.scene.dimension === 2 || this.#side;
     const { middle } = this.#frame;
     const scale = Math.min(width / this.#frame.width, height / this.#frame.height);
     const radius = (0.5 * Math.min(width, height * 1.2)) / scale;
     const p = projection(planar, middle, radius, width, height);
     const frame = run.frameAt(time);
-    this.#drawBodies(g, frame, planar, p, (2.2 * Math.max(width, height)) / scale);
+    // A half-space in 3D is drawn as a piece with edges, so that it is seen to move.
+    const reach = planar ? (2.2 * Math.max(width, height)) / scale : (0.5 * Math.min(width, 1.7 * height)) / scale;
+    this.#drawBodies(g, frame, planar, p, reach);
     this.#drawTrails(g, frame, p);
     if (this.#showContacts) this.#drawContacts(g, frame, p);
   }
@@ -205,7 +226,8 @@ class Panel {
       if (!pose) return;
       const still = body.type === 'static';
       const colour = still ? ground : fill;
-      const placed = { ...body, first: pose };
+      const moved = { ...body, first: pose };
+      const placed = still && !planar ? cut(moved, this.#frame.middle, reach) : moved;
       for (const solid of solidsOf(placed, planar, this.#frame.middle, reach))
         faces.push(...this.#facesOf(g, solid, placed, still, colour, edge, planar, p));
     });
@@ -348,15 +370,12 @@ class Player {
 
   async load(): Promise<void> {
     const canvases = [...this.#figure.querySelectorAll('canvas')];
-    const { folder = '', view, trail, contacts, seconds } = this.#figure.dataset;
+    const { folder = '', view, seconds } = this.#figure.dataset;
     try {
       const recordings = await Promise.all(canvases.map((c) => load(c.dataset.run as string, folder)));
       const runs = recordings.map((r) => new Run(r));
       const frame = framing(runs, view ? (JSON.parse(view) as number[]) : null);
-      const trails = trail ? (JSON.parse(trail) as string[]) : [];
-      this.#panels = runs.map(
-        (r, i) => new Panel(canvases[i] as HTMLCanvasElement, r, frame, trails, contacts === 'yes'),
-      );
+      this.#panels = runs.map((r, i) => new Panel(canvases[i] as HTMLCanvasElement, r, frame, this.#figure.dataset));
       const longest = Math.max(...runs.map((r) => r.times.at(-1) ?? 0));
       this.#end = seconds ? Math.min(longest, Number(seconds)) : longest;
       this.#step = Math.max(

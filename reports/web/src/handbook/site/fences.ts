@@ -20,6 +20,7 @@ export interface SceneFence {
   sides: SceneSide[]; // one to three
   metrics: string[]; // "name" or "name@subject"
   contacts: boolean; // contact normals are drawn
+  side: boolean; // a scene in 3D is seen from the front
   trail: string[]; // bodies whose paths are drawn
   view: number[] | null; // [m] of what the picture shows: left, bottom, right, top
   seconds: number | null; // the picture ends here
@@ -70,6 +71,7 @@ export function readSceneFence(body: string): SceneFence {
     sides,
     metrics: get('metric').flatMap((m) => m.split(',').map((part) => part.trim())),
     contacts: get('show').includes('contacts'),
+    side: get('show').includes('side'),
     trail: get('trail'),
     view: get('view')[0]?.split(',').map(Number) ?? null,
     seconds: get('seconds')[0] ? Number(get('seconds')[0]) : null,

@@ -34,6 +34,8 @@ const drawing = (p: Picture, file: string, out: string): string[] => [
   p.show ?? 'outline,joint',
   ...(p.turn === undefined ? [] : ['--turn', String(p.turn)]),
   ...(p.lift === undefined ? [] : ['--lift', String(p.lift)]),
+  '--width',
+  '520',
   '--out',
   out,
 ];

@@ -105,7 +105,7 @@ export function sceneHtml(scene: SceneFence, results: (RunResult | null)[], path
   const button = (kind: string, label: string, ...icons: string[]) =>
     `<button type="button" class="${kind}" aria-label="${label}" title="${label}">${icons.join('')}</button>`;
   const commands = scene.sides.map((side) => commandOf(side.run)).join('\n');
-  return `<figure class="scene"${data('folder', `${rootOf(path)}data`)}${data('view', scene.view && JSON.stringify(scene.view))}${data('trail', scene.trail.length > 0 ? JSON.stringify(scene.trail) : null)}${data('contacts', scene.contacts ? 'yes' : null)}${data('seconds', scene.seconds === null ? null : String(scene.seconds))}>
+  return `<figure class="scene"${data('folder', `${rootOf(path)}data`)}${data('view', scene.view && JSON.stringify(scene.view))}${data('trail', scene.trail.length > 0 ? JSON.stringify(scene.trail) : null)}${data('contacts', scene.contacts ? 'yes' : null)}${data('side', scene.side ? 'yes' : null)}${data('seconds', scene.seconds === null ? null : String(scene.seconds))}>
 <div class="panels" style="--count:${scene.sides.length}">${panels.join('')}</div>
 <noscript><p class="muted">${w.noScript}</p></noscript>
 <div class="controls">${button('play', w.play, icon('M7 4v16l13-8z', 'start'), icon('M6 4h4v16H6zM14 4h4v16h-4z', 'pause'))}${button('back', w.back, icon('M18 5v14l-10-7zM5 5h2.5v14H5z', ''))}${button('next', w.next, icon('M6 5v14l10-7zM16.500 5H19v14h-2.500z', ''))}<input type="range" min="0" max="1" value="0" step="any" aria-label="${w.time}"><output>0.00 s</output></div>

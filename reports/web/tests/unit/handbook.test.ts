@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The sources of the handbook: quotes that are found, links that lead somewhere, two languages of one structure. No
+// program is needed; scenes have no numbers here.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { readHeader } from '../../src/handbook/site/api.ts';
+import { brokenLinks, externalRequests, structureOf, translationErrors } from '../../src/handbook/site/checks.ts';
+import { commandOf, readExercise, readSceneFence } from '../../src/handbook/site/fences.ts';
+import { readGallery } from '../../src/handbook/site/gallery.ts';
+import { shown } from '../../src/handbook/site/layout.ts';
+import { renderPage } from '../../src/handbook/site/markup.ts';
+import { findQuote, readQuote } from '../../src/handbook/site/quotes.ts';
+import { overridden, scenarioFile } from '../../src/handbook/site/record.ts';
+import { makeSite } from '../../src/handbook/site/site.ts';
+
+const root = process.env.RIGOR_SOURCE_DIR as string;
+const site = makeSite(root, null, []);
+const added = (path: string) =>
+  /^(assets|pictures)\//.test(path) || /^en\/(reference\/[a-z-]+|gallery)\.html$/.test(path);
+
+test('every quote, scene and exercise of the handbook is there, in both languages alike', () => {
+  assert.deepEqual(translationErrors(site), []);
+  const chapters = site.pages.filter((p) => p.language === 'en' && p.name.startsWith('build/'));
+  assert.ok(chapters.length >= 12, `${chapters.length} chapters`);
+  for (const { name, page } of chapters) {
+    assert.ok(page.scenes.length >= 1, `${name} has a scene`);
+    assert.ok(page.exercises.length >= 3, `${name} has three exercises`);
+    assert.ok(page.formulas.length >= 1, `${name} has a formula`);
+    assert.ok(page.quotes.length >= 1 || name.endsWith('doctor'), `${name} quotes the engine`);
+  }
+});
+
+test('links lead somewhere, and a page loads nothing from elsewhere', () => {
+  assert.deepEqual(brokenLinks(site.files, added), []);
+  assert.deepEqual(externalRequests(site.files), []);
+});
+
+test('Chinese pages are in Chinese', () => {
+  for (const { language, name, page } of site.pages) {
+    const share = (page.html.match(/[\u4e00-\u9fff]/g) ?? []).length;
+    if (language === 'zh') assert.ok(share > 300, `${name}: ${share} Chinese characters`);
+    else assert.equal(share, 0, name);
+  }
+});
+
+test('files that exercises and the gallery name exist', () => {
+  for (const { scenario } of readGallery(root)) scenarioFile(root, scenario);
+  assert.ok(readGallery(root).length >= 20);
+  for (const { name, page } of site.pages)
+    for (const exercise of page.exercises)
+      for (const command of [...exercise.answer, exercise.judge])
+        for (const [, file] of command.matchAll(/ ((?:reports|scenarios)\/\S+\.json)/g))
+          assert.doesNotThrow(() => readFileSync(join(root, file as string)), `${name}: ${file}`);
+});
+
+test('a quote is found by its text, and one that is gone or stands twice is an error', () => {
+  const code = 'int a() {\n    return 1;  // }\n}\n\n/// Two.\ntemplate <class S>\nint b() {\n    if (x) { y(); }\n}\n';
+  const quote = findQuote({ file: 'f', from: 'int b() {', to: null }, code);
+  assert.equal(quote.first, 5);
+  assert.deepEqual(quote.lines.slice(-2), ['    if (x) { y(); }', '}']);
+  assert.equal(findQuote({ file: 'f', from: 'int a', to: 'return' }, code).lines.length, 2);
+  assert.deepEqual(findQuote({ file: 'f', from: 'int a', to: null }, code).lines.at(-1), '}');
+  assert.throws(() => findQuote({ file: 'f', from: 'int c', to: null }, code), /stands on 0 lines/);
+  assert.throws(() => findQuote({ file: 'f', from: 'int', to: null }, code), /stands on 2 lines/);
+  assert.throws(() => findQuote({ file: 'f', from: 'int a', to: 'nowhere' }, code), /no end/);
+  assert.deepEqual(readQuote('f', 'from: x y\nto: z'), { file: 'f', from: 'x y', to: 'z' });
+  assert.throws(() => readQuote('f', 'to: z'));
+});
+
+test('fences are read', () => {
+  const scene = readSceneFence(
+    'scenario: a\nset: k=1\nside: L | x:y=1\nside: R | x | dt=1/240 | scenario=b\nmetric: m, n@q',
+  );
+  assert.deepEqual(scene.metrics, ['m', 'n@q']);
+  assert.deepEqual(
+    scene.sides.map((s) => commandOf(s.run)),
+    ['./rigor run a --engine x:y=1 --set k=1', './rigor run b --engine x --dt 1/240 --set k=1'],
+  );
+  assert.throws(() => readSceneFence('scenario: a\nsides: L | x'), /not known/);
+  assert.throws(() => readSceneFence('scenario: a'), /one to three/);
+  const exercise = readExercise('Do.\n--- judge\n./j\n--- answer\n./a\n./b\n--- wrong\n./w\n--- solution\nSo.');
+  assert.deepEqual(exercise, { text: 'Do.', judge: './j', answer: ['./a', './b'], wrong: './w', solution: 'So.' });
+  assert.throws(() => readExercise('Do.\n--- judge\n./j'), /has a text/);
+});
+
+test('the structure of a page notices what a translation lacks', () => {
+  const context = {
+    readSource: () => 'f() {\n}\n',
+    sourceLink: () => '#',
+    sceneHtml: () => '',
+    words: { exercise: '', judge: '', answer: '', copy: '' },
+  };
+  const source =
+    '# T\n\n$x$ text\n\n```math\nx = \\text{one}\n```\n\n```quote f.cpp\nfrom: f()\n```\n\n```sh\n./rigor a  # note\n```\n';
+  const page = renderPage(source, context);
+  assert.equal(page.title, 'T');
+  assert.equal(page.inlineFormulas, 1);
+  assert.deepEqual(structureOf(page).commands, ['./rigor a']);
+  assert.deepEqual(structureOf(renderPage(source.replace('one', '一'), context)), structureOf(page));
+  for (const lost of ['# T', '```math\nx = \\text{one}\n```', '```quote f.cpp\nfrom: f()\n```', './rigor a'])
+    assert.notDeepEqual(structureOf(renderPage(source.replace(lost, ''), context)), structureOf(page), lost);
+});
+
+test('checks of links and requests find what is wrong', () => {
+  const files = new Map([
+    ['a/b.html', '<a href="../c.html#x">c</a><a href="d.html"></a>'],
+    ['c.html', '<p id="y">'],
+  ]);
+  assert.deepEqual(
+    brokenLinks(files, () => false),
+    ['a/b.html: ../c.html#x, no such place', 'a/b.html: d.html'],
+  );
+  const loads = new Map([
+    ['a', '<img alt="" src="https://x.y/z.png"> <a href="https://x.y">'],
+    ['b.css', 'url(//x.y/f)'],
+  ]);
+  assert.deepEqual(externalRequests(loads), ['a: https://x.y/z.png', 'b.css: //x.y/f']);
+});
+
+test('overrides, numbers and headers', () => {
+  const file = { bodies: [{ name: 'a', mass: 1 }], list: [{ grid: { counts: [1] } }] };
+  assert.deepEqual(overridden(file, ['bodies.a.mass=2', 'list.0.grid.counts=[3,4]']), {
+    bodies: [{ name: 'a', mass: 2 }],
+    list: [{ grid: { counts: [3, 4] } }],
+  });
+  assert.equal(file.bodies[0]?.mass, 1);
+  assert.deepEqual([null, 0, 12.345, 1.23e-9].map(shown), ['—', '0', '12.3', '1.2 · 10^-9']);
+  const header = readHeader(
+    'h',
+    '// SPDX\n// What.\n#pragma once\n/// Steps.\nvoid step(int n);\nint a = 0;  ///< count\n',
+  );
+  assert.equal(header.purpose, 'What.');
+  assert.deepEqual(
+    header.declarations.map((d) => [d.line, d.code, d.comment]),
+    [
+      [5, 'void step(int n)', 'Steps.'],
+      [6, 'int a = 0;', 'count'],
+    ],
+  );
+});
