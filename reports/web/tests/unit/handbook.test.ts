@@ -90,6 +90,7 @@ test('fences are read', () => {
 test('the structure of a page notices what a translation lacks', () => {
   const context = {
     readSource: () => 'f() {\n}\n',
+    siteRoot: '',
     sourceLink: () => '#',
     sceneHtml: () => '',
     words: { exercise: '', judge: '', answer: '', copy: '' },

@@ -41,6 +41,7 @@ export interface Page {
 /** What the pages of one language share. */
 export interface MarkupContext {
   readSource: (file: string) => string;
+  siteRoot: string; // what "site:" in a link stands for
   sourceLink: (file: string, line: number) => string;
   sceneHtml: (scene: SceneFence) => string;
   words: { exercise: string; judge: string; answer: string; copy: string };
@@ -146,7 +147,7 @@ export function renderPage(source: string, context: MarkupContext): Page {
       },
       link({ href, tokens }) {
         page.links.push(href);
-        const target = href.replace(/\.md(?=#|$)/, '.html');
+        const target = href.replace(/^site:/, context.siteRoot).replace(/\.md(?=#|$)/, '.html');
         return `<a href="${escaped(target)}">${this.parser.parseInline(tokens)}</a>`;
       },
       table(token) {

@@ -160,6 +160,7 @@ function commandLine(program: string): GeneratedPage {
 function documentPage(root: string, { file, page: name }: (typeof documents)[number]): GeneratedPage {
   const made = renderPage(readFileSync(join(root, file), 'utf8'), {
     readSource: () => '',
+    siteRoot: '',
     sourceLink: () => '',
     sceneHtml: () => '',
     words: words.en,

@@ -64,6 +64,7 @@ export function makeSite(root: string, recorder: Recorder | null, generated: rea
       try {
         const page = renderPage(readFileSync(pageFile(root, language, name), 'utf8'), {
           readSource,
+          siteRoot: rootOf(path),
           sourceLink: (file, line) => `${rootOf(path)}${sourcePath(file)}#L${line}`,
           sceneHtml: scene,
           words: words[language],
