@@ -41,6 +41,7 @@ TEST(Tree, EveryFolderHasAReadme) {
                                "validation",
                                "reports",
                                "reports/web",
+                               "reports/handbook",
                                "cli",
                                "adapters/rigor",
                                "adapters/bullet",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a page of the handbook does in the browser: scenes, light or dark, commands to the clipboard, the filter of long
+// The script of every page of the handbook: scenes, light or dark, commands to the clipboard, the filter of long
 // tables. Without it the text is complete.
 import 'katex/dist/katex.min.css';
 import '../../common/theme.css';

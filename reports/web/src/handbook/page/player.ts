@@ -100,7 +100,7 @@ class Run {
 
 const median = (values: number[]) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)] ?? 0;
 
-/** What all pictures show: where bodies are during the last run, and near that during the others. */
+/** The rectangle that all pictures show: where bodies are during the last run, and near that during the others. */
 function framing(runs: Run[], view: number[] | null): { middle: Vec3; width: number; height: number } {
   if (view?.length === 4) {
     const [x0, y0, x1, y1] = view as [number, number, number, number];

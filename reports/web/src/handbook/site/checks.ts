@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What must hold of the whole site: links lead somewhere, nothing is loaded from elsewhere, and both languages have
+// Checks of the whole site: links lead somewhere, nothing is loaded from elsewhere, and both languages have
 // the same structure.
 import { posix } from 'node:path';
 import { commandOf } from './fences.ts';
@@ -42,7 +42,7 @@ export function externalRequests(files: ReadonlyMap<string, string>): string[] {
 const runsOf = (page: Page) =>
   page.scenes.map((s) => [...s.sides.map((side) => commandOf(side.run)), ...s.metrics].join(' | '));
 
-/** What both languages of a page have in common, as text that can be compared. */
+/** Everything that both languages of a page have in common, as text that can be compared. */
 export function structureOf(page: Page): Record<string, string[]> {
   return {
     headings: page.headings.map((h) => `h${h.level}`),

@@ -48,7 +48,7 @@ export const words = {
   },
   zh: {
     exercise: '练习',
-    judge: '用下面的命令检验:',
+    judge: '用下面的命令检验：',
     answer: '答案',
     copy: '复制',
     contents: '目录',
@@ -60,7 +60,7 @@ export const words = {
     time: '时间',
     commands: '重现这些运行的命令',
     noScript: '播放场景需要 JavaScript。',
-    made: '由 Rigor 源码生成,版本',
+    made: '由 Rigor 源码生成，版本',
     quoted: '源文件',
     filter: '筛选',
     picture: '录制的运行',

@@ -9,15 +9,15 @@ import { coloured, escaped } from './markup.ts';
 import type { RunResult } from './record.ts';
 
 export interface NavigationItem {
-  path: string; // from the root of the site
+  path: string; // path from the root of the site
   title: string;
 }
 
 export interface Frame {
   language: Language;
-  path: string; // of this page, from the root of the site
+  path: string; // path of this page from the root of the site
   title: string;
-  name: string; // of the handbook
+  name: string; // title of the handbook
   home: string;
   parts: { title: string; pages: NavigationItem[] }[];
   otherLanguage: string | null; // path of the same page

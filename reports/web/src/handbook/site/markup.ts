@@ -38,10 +38,10 @@ export interface Page {
   links: string[];
 }
 
-/** What the pages of one language share. */
+/** Everything that the pages of one language share. */
 export interface MarkupContext {
   readSource: (file: string) => string;
-  siteRoot: string; // what "site:" in a link stands for
+  siteRoot: string; // path that "site:" in a link stands for
   sourceLink: (file: string, line: number) => string;
   sceneHtml: (scene: SceneFence) => string;
   words: { exercise: string; judge: string; answer: string; copy: string };

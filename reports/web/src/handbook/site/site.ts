@@ -13,7 +13,7 @@ import { type Recorder, scenarioFile } from './record.ts';
 
 /** Pages that are made from tables of the program, in English. */
 export interface GeneratedPage {
-  path: string; // from the root of the site
+  path: string; // path from the root of the site
   title: string;
   html: string;
 }
@@ -21,7 +21,7 @@ export interface GeneratedPage {
 export interface SitePage {
   language: Language;
   name: string; // as in the contents
-  path: string; // from the root of the site
+  path: string; // path from the root of the site
   page: Page;
 }
 
@@ -102,7 +102,7 @@ export function makeSite(root: string, recorder: Recorder | null, generated: rea
     }));
     const more = generated.map((g): NavigationItem => ({ path: g.path, title: g.title }));
     if (more.length > 0)
-      parts.push({ title: language === 'zh' ? '参考与图库(英文)' : 'Reference and gallery', pages: more });
+      parts.push({ title: language === 'zh' ? '参考与图库（英文）' : 'Reference and gallery', pages: more });
     return parts;
   };
   const navigation = { en: items('en'), zh: items('zh') };
