@@ -15,12 +15,18 @@ import type { GeneratedPage } from './site.ts';
 
 const folder = 'en/reference';
 
-/** Documents of the repository that are pages as they stand. */
-const documents = [
+/** A document of the repository that is a page as it stands. */
+interface Document {
+  file: string;
+  page: string;
+  title?: string; // else the first heading of the file
+}
+
+const documents: Document[] = [
   { file: 'scenarios/FORMAT.md', page: 'scenario-format' },
   { file: 'adapters/guest/PROTOCOL.md', page: 'protocol' },
   { file: 'reports/FORMATS.md', page: 'report-formats' },
-  { file: 'validation/results/README.md', page: 'results' },
+  { file: 'validation/results/README.md', page: 'results', title: 'The store of results' },
   { file: 'validation/accuracy/README.md', page: 'accuracy' },
   { file: 'engine/LIMITS.md', page: 'limits' },
 ];
@@ -157,7 +163,7 @@ function commandLine(program: string): GeneratedPage {
 }
 
 /** A document of the repository; its links to others lead to their pages, those to files are left as text. */
-function documentPage(root: string, { file, page: name }: (typeof documents)[number]): GeneratedPage {
+function documentPage(root: string, { file, page: name, title }: Document): GeneratedPage {
   const made = renderPage(readFileSync(join(root, file), 'utf8'), {
     readSource: () => '',
     siteRoot: '',
@@ -172,7 +178,7 @@ function documentPage(root: string, { file, page: name }: (typeof documents)[num
     return known ? `<a href="${known.page}.html">${text}</a>` : text;
   });
   const note = `<p class="muted">From <code>${escaped(file)}</code>.</p>`;
-  return { path: `${folder}/${name}.html`, title: made.title, html: html.replace('</h1>', `</h1>\n${note}`) };
+  return { path: `${folder}/${name}.html`, title: title ?? made.title, html: html.replace('</h1>', `</h1>\n${note}`) };
 }
 
 function schemas(root: string): GeneratedPage {

@@ -122,7 +122,8 @@ export function makeSite(root: string, recorder: Recorder | null, generated: rea
     const twin = pages.find((p) => p.language !== language && p.name === name);
     files.set(path, documentHtml(frame(language, path, page.title, twin?.path ?? null), page.html));
   }
-  for (const { path, title, html } of generated) files.set(path, documentHtml(frame('en', path, title, null), html));
+  for (const { path, title, html } of generated)
+    files.set(path, documentHtml(frame('en', path, title, 'zh/index.html'), html));
   for (const [file, text] of sources) {
     const path = sourcePath(file);
     files.set(path, documentHtml(frame('en', path, file, null), sourceHtml(file, text)));
