@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The handbook in Chromium, opened from disk as `./rigor docs` has written it: scenes play and are scrubbed, a page loads
+// files of the site alone, and fits a telephone. Skipped where the handbook has not been written.
+import assert from 'node:assert/strict';
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import type { Browser, Page } from 'playwright-core';
+import { launch, skip } from '../browser.ts';
+
+const site = join(process.env.RIGOR_BINARY_DIR ?? '', 'handbook');
+const missing = existsSync(join(site, 'en/build/state.html')) ? false : './rigor docs has not been run';
+
+describe('the handbook', { skip: skip || missing }, () => {
+  let browser: Browser;
+  let page: Page;
+  const trouble: string[] = [];
+  before(async () => {
+    browser = await launch();
+    page = await browser.newPage({ viewport: { width: 1200, height: 900 } });
+    page.on('console', (message) => {
+      if (message.type() === 'error') trouble.push(message.text());
+    });
+    page.on('pageerror', (error) => trouble.push(error.message));
+    page.on('request', (request) => {
+      if (!/^(file|data):/.test(request.url())) trouble.push(`request of ${request.url()}`);
+    });
+  });
+  after(() => browser?.close());
+
+  const open = (path: string) => page.goto(`file://${join(site, path)}`);
+  /** The picture of the first scene as text. */
+  const picture = () =>
+    page
+      .locator('figure.scene canvas')
+      .first()
+      .evaluate((c) => (c as HTMLCanvasElement).toDataURL());
+
+  test('a scene is drawn, scrubbed and played', async () => {
+    await open('en/build/clipping.html');
+    const figure = page.locator('figure.scene.ready').first();
+    await figure.scrollIntoViewIfNeeded();
+    const start = await picture();
+    await figure.locator('input[type=range]').evaluate((slider) => {
+      const input = slider as HTMLInputElement;
+      input.value = String(Number(input.max) / 2);
+      input.dispatchEvent(new Event('input'));
+    });
+    const middle = await picture();
+    assert.notEqual(middle, start);
+    assert.equal(await figure.locator('output').textContent(), '1.50 s');
+    await figure.locator('button.next').click();
+    assert.notEqual(await picture(), middle);
+    await figure.locator('button.play').click();
+    await page.waitForFunction(
+      () => Number.parseFloat(document.querySelector('figure.scene output')?.textContent ?? '') > 1.7,
+    );
+    assert.deepEqual(trouble, []);
+  });
+
+  test('every page of contents opens, in both languages, and fits a telephone', async () => {
+    await page.setViewportSize({ width: 390, height: 800 });
+    for (const language of ['en', 'zh']) {
+      await open(`${language}/index.html`);
+      const links = await page
+        .locator('nav.contents a')
+        .evaluateAll((all) => all.map((a) => (a as HTMLAnchorElement).href));
+      assert.ok(links.length > 25, `${links.length} links`);
+      for (const link of language === 'en' ? links : links.filter((l) => l.includes('/zh/'))) {
+        await page.goto(link);
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+        assert.ok(wide <= 0, `${link} is ${wide} px too wide`);
+        assert.equal(await page.locator('h1').count(), 1, link);
+      }
+    }
+    assert.deepEqual(trouble, []);
+  });
+
+  test('light and dark are chosen by a button and kept', async () => {
+    await open('en/index.html');
+    const theme = () => page.evaluate(() => document.documentElement.dataset.theme);
+    await page.locator('#theme').click();
+    assert.equal(await theme(), 'dark');
+    await page.reload();
+    assert.equal(await theme(), 'dark');
+    await page.locator('#theme').click();
+    assert.equal(await theme(), 'light');
+  });
+});
