@@ -53,7 +53,7 @@ export function galleryPage(root: string, program: string, folder: string): Gene
     }
     const scenario = JSON.parse(readFileSync(source, 'utf8')) as Json;
     const command = `./rigor ${drawing(picture, picture.scenario, name).join(' ')}`;
-    return `<article class="card"><img src="../pictures/${name}" alt="${escaped(scenario.title)}" loading="lazy"><div class="below"><h3>${escaped(scenario.title)}</h3><p class="muted"><a href="reference/scenarios.html#${picture.scenario}"><code>${picture.scenario}</code></a>, ${escaped(picture.engine)}, ${picture.at} s</p><details><summary>command</summary><code>${escaped(command)}</code></details></div></article>`;
+    return `<article class="card"><img src="../pictures/${name}" alt="${escaped(scenario.title)}" loading="lazy"><div class="below"><h2>${escaped(scenario.title)}</h2><p class="muted"><a href="reference/scenarios.html#${picture.scenario}"><code>${picture.scenario}</code></a>, ${escaped(picture.engine)}, ${picture.at} s</p><details><summary>command</summary><code>${escaped(command)}</code></details></div></article>`;
   });
   const version = versionOf(root);
   const report = existsSync(join(folder, '../report/index.html'))

@@ -98,7 +98,7 @@ export function renderPage(source: string, context: MarkupContext): Page {
     const { words } = context;
     page.exercises.push(fence);
     const number = page.exercises.length;
-    return `<section class="exercise"><h4>${escaped(words.exercise)} ${number}</h4>${marked.parse(fence.text)}
+    return `<section class="exercise"><h3>${escaped(words.exercise)} ${number}</h3>${marked.parse(fence.text)}
 <p class="judge">${escaped(words.judge)}</p>${codeBlock(fence.judge, 'sh', words)}
 <details><summary>${escaped(words.answer)}</summary>${codeBlock(fence.answer.join('\n'), 'sh', words)}${marked.parse(fence.solution)}</details></section>\n`;
   };

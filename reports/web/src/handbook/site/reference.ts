@@ -41,7 +41,7 @@ const list = (program: string, what: string): Json[] => JSON.parse(output(progra
 
 const filter = `<p><input class="filter" type="search" aria-label="${words.en.filter}" placeholder="${words.en.filter}"></p>\n`;
 const entry = (id: string, name: string, body: string) =>
-  `<section class="entry" data-entry id="${escaped(id)}"><h3><code>${escaped(name)}</code></h3>${body}</section>\n`;
+  `<section class="entry" data-entry id="${escaped(id)}"><h2><code>${escaped(name)}</code></h2>${body}</section>\n`;
 const paragraph = (text: string, kind = '') => (text ? `<p${kind ? ` class="${kind}"` : ''}>${escaped(text)}</p>` : '');
 
 function formulaHtml(tex: string, plain: string): string {
