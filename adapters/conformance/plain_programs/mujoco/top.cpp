@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Top: a heavy top of 80 rad/s on a ball joint, as a model of its own. With Euler's step it gains half of its energy in half a second;
-// RK4
-// keeps its energy.
+// Top: a heavy top of 80 rad/s on a ball joint, as a model of its own. With Euler's step it gains half of its energy in half
+// a second; RK4 keeps its energy.
 #include "adapters/conformance/plain_programs/mujoco/model.hpp"
 
 namespace rigor::plain {
