@@ -33,16 +33,15 @@ std::vector<LedgerEntry> MujocoWorld::ledger() const {
             text("tolerance"));
     add("warm_starting", text("warm_starting"), text("warm_starting") + ", by the last accelerations");
     add("contact_softness", "rigid",
-        "solref " +
-            shown(model.opt.disableflags & mjDSBL_REFSAFE ? model.geom_solref[0]
-                                                          : modelSettings().softness.solref[0]) +
-            " s, solimp " + text("solimp_min") + " to " + text("solimp_max"),
+        "solref " + shown(modelSettings().softness.solref[0]) + " s, damping ratio " +
+            text("solref_damping") + ", solimp " + text("solimp_min") + " to " + text("solimp_max"),
         "constraints are springs: bodies sink under their weight");
+    const bool pyramid = is("cone", "pyramidal");
     add("friction_law", "coulomb cone, pair coefficient",
-        is("cone", "pyramidal") ? "pyramid of 4 edges, pair coefficient"
-                                : "cone, impratio " + text("impratio"),
-        is("cone", "pyramidal") ? "the pyramid's edges are at the coefficient: up to sqrt 2 of it beside them"
-                                : "friction is regularised: bodies that stick creep");
+        pyramid ? "convex, pyramid of 4 edges" : "convex, cone, impratio " + text("impratio"),
+        std::string("a surface that slides at v leaves the other at mu v; ") +
+            (pyramid ? "between the pyramid's edges friction is down to 1 / sqrt 2 of it"
+                     : "bodies that stick creep"));
     add("friction_pair", "pair table",
         std::to_string(model_.explicitPairs) + " pairs of geoms named, one surface for all others");
     const auto examples = pairs_.examples();
