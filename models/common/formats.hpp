@@ -11,7 +11,7 @@ namespace rigor::models {
 
 struct Format {
     const char* name;      ///< "mjcf"
-    const char* title;     ///< for help
+    const char* title;     ///< a line of the help
     const char* packages;  ///< Debian packages of its reader
 };
 const std::vector<Format>& formats();

@@ -24,8 +24,8 @@ struct ReadOptions {
     double duration = 5.0;                      ///< [s]
     double timeStep = 0.0;                      ///< [s]; 0: the model's, else 1/240
     double friction = 1.0;                      ///< coefficient where the format states none
-    double density = 1000.0;                    ///< of meshes [kg/m^3]
-    double scale = 1.0;                         ///< of a mesh file: metres per unit
+    double density = 1000.0;                    ///< density of meshes [kg/m^3]
+    double scale = 1.0;                         ///< metres per unit of a mesh file
     std::string keyframe;                       ///< MJCF: name or number of the start; "": none
     bool fixedBase = false;                     ///< URDF: the root link does not move
     bool selfCollision = false;  ///< URDF: links of one robot collide unless a joint connects them

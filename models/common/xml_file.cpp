@@ -263,7 +263,7 @@ XMLElement* XmlFile::replaceInclude(XMLElement& parent, XMLElement& include, con
 void XmlFile::expandIn(XMLElement& parent, const Resolve& resolve) {
     for (XMLElement* child = parent.FirstChildElement(); child;) {
         if (std::string_view(child->Name()) == "include") {
-            child = replaceInclude(parent, *child, resolve);  // what it includes is looked at next
+            child = replaceInclude(parent, *child, resolve);  // the included elements come next
         } else {
             expandIn(*child, resolve);
             child = child->NextSiblingElement();

@@ -72,7 +72,7 @@ class XmlFile {
 };
 
 /// Judges every element below `root` by the rules; what is left out, and what has no physics, is removed from the
-/// document. `knows`, where given, tells whether the library that reads on knows the attribute ("" is the element); a
+/// document. `knows`, where given, returns whether the library that reads on knows the attribute ("" is the element); a
 /// thing to be read that it does not know is refused as newer than `library`.
 void applyRules(
     XmlFile& file, std::span<const ElementRule> rules, Report& report,

@@ -17,7 +17,7 @@ using scenario::Pose;
 using scenario::Vec3;
 using tinyxml2::XMLElement;
 
-constexpr int kMostElements = 200000;  ///< of a document with its replicas
+constexpr int kMostElements = 200000;  ///< limit for a document with its replicas
 constexpr const char* kOrientations[] = {"quat", "axisangle", "euler", "xyaxes", "zaxis"};
 
 class Lowering {

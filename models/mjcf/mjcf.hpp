@@ -54,7 +54,7 @@ std::string libraryName();
 /// Compiles the document. Throws Refusal with the library's message.
 Model compile(XmlFile& file, const std::string& nameInMessages);
 
-/// What is being made of a compiled model.
+/// A compiled model and the scenario that is being made from it.
 struct Conversion {
     const ReadOptions& options;
     Report& report;

@@ -28,8 +28,8 @@ using scenario::Vec3;
 using tinyxml2::XMLElement;
 
 constexpr double kUnlimited = 1e6;        ///< limits beyond it are none
-constexpr double kUsualDensity = 1000.0;  ///< of the format, for inertia from shapes [kg/m^3]
-constexpr double kUsualThreshold = 1e5;   ///< of the format, for bounces [m/s]
+constexpr double kUsualDensity = 1000.0;  ///< default of the format for inertia from shapes [kg/m^3]
+constexpr double kUsualThreshold = 1e5;   ///< default of the format for bounces [m/s]
 
 Vec3 convert(const ignition::math::Vector3d& v) {
     return {v.X(), v.Y(), v.Z()};

@@ -80,7 +80,6 @@ TEST(Mjcf, ModelsAreWhatTheLibrarySays) {
     const auto folder = modelsFolder();
     if (folder.empty()) GTEST_SKIP() << "RIGOR_DATA is not set";
     const std::pair<const char*, const char*> models[] = {{"mujoco/boxbox_deep.xml", ""},
-                                                          {"mujoco/stacked_boxes.xml", ""},
                                                           {"bullet3/hello_mjcf.xml", ""},
                                                           {"mujoco/doc_pendulum.xml", ""},
                                                           {"mujoco/example.xml", ""},

@@ -22,7 +22,7 @@ using nlohmann::json;
 struct Attempt {
     bool isImported = false;
     std::string reasons;             ///< refusals with file and line
-    std::set<std::string> features;  ///< that `--without` could leave out
+    std::set<std::string> features;  ///< words that `--without` could leave out
     bool isFinal = false;            ///< something is refused that can not be left out
 };
 

@@ -27,7 +27,7 @@ struct TreeJoint {
     bool isReversed = false;       ///< the child is the joint's A
 };
 struct JointTree {
-    std::vector<TreeJoint> above;  ///< for every body
+    std::vector<TreeJoint> above;  ///< one entry for every body
     std::vector<int> loops;        ///< joints that close a loop
     std::vector<int> order;        ///< bodies, parents first
 };
@@ -47,7 +47,7 @@ inline std::string digits(const scenario::Vec3& v) {
 inline std::string digits(const scenario::Quat& q) {
     return digits({q.w, q.x, q.y, q.z});
 }
-std::string escaped(const std::string& text);  ///< for an attribute in XML
+std::string escaped(const std::string& text);  ///< text of an attribute in XML
 
 /// Refuses what neither MJCF nor URDF has: forces, events, breaking joints, damping of bodies, moving surfaces.
 void refuseCommon(const scenario::Scenario& scenario, Report& report);
