@@ -7,10 +7,13 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
+#include <cstring>
 #include <memory>
+#include <set>
 #include <sstream>
 
 #include "models/tests/tool.hpp"
+#include "scenarios/model/surfaces.hpp"
 
 namespace rigor::models::testing {
 namespace {
@@ -166,6 +169,81 @@ TEST(Mjcf, AKeyframeIsTheStart) {
     expectNear(s.bodies[0].angularVelocity, {0, 0, 2}, kTolerance, "spin");
     EXPECT_THAT(refusal("mjcf", file, "--keyframe other"),
                 HasSubstr("k.xml: file: --keyframe: found 'other'"));
+}
+
+TEST(Mjcf, FiltersOfContactsBecomeLayers) {
+    const auto file = writeText(freshFolder("filters") / "f.xml", R"(<mujoco><worldbody>
+      <geom name="f" type="plane" size="0 0 1" friction=".3"/>
+      <body name="a" pos="0 0 1"><freejoint/><geom size=".1" contype="2" conaffinity="1"/></body>
+      <body name="b" pos="1 0 1"><freejoint/><geom size=".1" contype="1" conaffinity="4"/></body>
+      <body name="c" pos="2 0 1"><freejoint/><geom name="gc" size=".1" contype="4" conaffinity="0"/></body>
+      <body name="d" pos="3 0 1"><freejoint/><geom size=".1"/></body></worldbody>
+      <contact><exclude body1="a" body2="d"/>
+      <pair geom1="gc" geom2="f" friction="0.7 0.7 0.01 0.001 0.001" condim="4"/></contact></mujoco>)");
+    const Scenario s = imported("mjcf", file);
+    const auto index = [&](const char* name) { return findBody(s, name); };
+    const std::set<std::string> apart{"ac", "cd", "ad"};
+    for (const char* one : {"a", "b", "c", "d"})
+        for (const char* two : {"a", "b", "c", "d"}) {
+            const std::string pair = std::string(one) + two;
+            if (*one >= *two) continue;
+            EXPECT_EQ(mayCollide(s, index(one), index(two)), !apart.contains(pair)) << pair;
+        }
+    // A pair of shapes touches whatever their bits are, by its own law.
+    EXPECT_TRUE(mayCollide(s, index("ground"), index("c")));
+    const auto law = pairCoefficients(s, s.bodies[0].shapes[0].material,
+                                      s.bodies[static_cast<std::size_t>(index("c"))].shapes[0].material);
+    EXPECT_DOUBLE_EQ(law.friction, 0.7);
+    EXPECT_DOUBLE_EQ(law.torsionalFriction, 0.01);
+    EXPECT_DOUBLE_EQ(law.rollingFriction, 0.0);
+}
+
+TEST(Mjcf, AHeightFieldIsWhereItWas) {
+    const auto folder = freshFolder("field");
+    constexpr int kRows = 3, kColumns = 4;
+    std::string bytes(sizeof(int) * 2 + sizeof(float) * kRows * kColumns, '\0');
+    const int size[2] = {kRows, kColumns};
+    float heights[kRows * kColumns];
+    for (int i = 0; i < kRows * kColumns; ++i) heights[i] = static_cast<float>(i) / (kRows * kColumns - 1);
+    std::memcpy(bytes.data(), size, sizeof size);
+    std::memcpy(bytes.data() + sizeof size, heights, sizeof heights);
+    writeText(folder / "h.bin", bytes);
+    const auto file =
+        writeText(folder / "h.xml", R"(<mujoco><asset><hfield name="h" file="h.bin" size="3 2 1 0.5"/></asset>
+      <worldbody><geom type="hfield" hfield="h" pos="1 0 0"/><body pos="0 0 3"><freejoint/><geom size=".1"/></body>
+      </worldbody></mujoco>)");
+    const Scenario s = imported("mjcf", file);
+    const Shape& shape = s.bodies[0].shapes[0];
+    const auto& field = std::get<HeightField>(shape.geometry);
+    EXPECT_DOUBLE_EQ(field.thickness, 0.5);
+    const auto vertices = surfaceVertices(field);
+    ASSERT_EQ(vertices.size(), 12u);
+    for (int r = 0; r < kRows; ++r)
+        for (int c = 0; c < kColumns; ++c) {
+            const Vec3 expected{1.0 + 6.0 * c / (kColumns - 1) - 3.0, 4.0 * r / (kRows - 1) - 2.0,
+                                static_cast<double>(heights[r * kColumns + c])};
+            expectNear(shape.pose * vertices[static_cast<std::size_t>(c * kRows + r)], expected, kTolerance,
+                       "vertex");
+        }
+}
+
+TEST(Mjcf, SlidesAndAHingeAreOneJoint) {
+    const auto file = writeText(freshFolder("planar") / "p.xml", R"(<mujoco><worldbody><body pos="5 0 1">
+      <joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1" range="-1 2"/>
+      <joint name="turn" type="hinge" axis="0 1 0" range="-20 20"/><geom size=".1"/></body></worldbody></mujoco>)");
+    const Scenario s = imported("mjcf", file);
+    ASSERT_EQ(s.joints.size(), 1u);
+    const Joint& j = s.joints[0];
+    EXPECT_EQ(j.type, JointType::SixDof);
+    expectNear(j.axisB, {0, 1, 0}, kTolerance, "axis");
+    expectNear(j.normalA, {1, 0, 0}, kTolerance, "normal");
+    EXPECT_EQ(j.axes[0].mode, AxisMode::Locked);
+    EXPECT_EQ(j.axes[1].mode, AxisMode::Free);
+    // The third direction is axis x normal = -z: the limits change places.
+    EXPECT_DOUBLE_EQ(j.axes[2].lower, -2.0);
+    EXPECT_DOUBLE_EQ(j.axes[2].upper, 1.0);
+    EXPECT_NEAR(j.axes[3].upper, 20.0 * 3.14159265358979323846 / 180.0, kTolerance);
+    EXPECT_EQ(j.axes[4].mode, AxisMode::Locked);
 }
 
 /// A pendulum as MJCF and written by hand moves the same for ten seconds.
