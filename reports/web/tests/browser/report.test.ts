@@ -58,6 +58,29 @@ describe('the report of a real run', { skip }, () => {
     it.clean();
   });
 
+  test('hides engines and puts one first, and the address keeps it', async () => {
+    await it.open('#scoreboard');
+    const heads = () => it.page.locator('#scoreboard thead th.group a').allTextContents();
+    const all = await heads();
+    const [first, last] = [all[0] ?? '', all.at(-1) ?? ''];
+    assert.ok(all.length > 2, all.join());
+    await it.page.locator('.engines > summary').click();
+    await it.page.locator('.engines').getByRole('checkbox', { name: first, exact: true }).uncheck();
+    assert.deepEqual(await heads(), all.slice(1));
+    await it.page
+      .locator('.engines')
+      .getByRole('button', { name: `${last} first`, exact: true })
+      .click();
+    assert.deepEqual(await heads(), [last, ...all.slice(1, -1)]);
+    assert.match(it.page.url(), new RegExp(`hide=${first}&pin=${last}`));
+    await it.page.reload();
+    await it.page.waitForSelector('#page[data-shown]');
+    assert.deepEqual(await heads(), [last, ...all.slice(1, -1)]);
+    await it.page.locator('#scoreboard').getByRole('button', { name: 'Reset' }).click();
+    assert.deepEqual(await heads(), all);
+    it.clean();
+  });
+
   test('terms say what they mean', async () => {
     await it.open('#scoreboard');
     const term = it.page.locator('#scoreboard abbr.term', { hasText: 'Grade' }).first();
