@@ -45,7 +45,7 @@ const options = [
     rg.choice('solver', ['PGS', 'CG', 'Newton'], 'Newton', 'Newton', 'solver of the constraints'),
     rg.choice('cone', ['pyramidal', 'elliptic'], 'pyramidal', 'elliptic', 'friction law'),
     rg.number('iterations', 1, 1e6, 100, 500, 'most iterations of the solver', true),
-    rg.number('tolerance', 0, 1, 1e-8, 0, 'the solver stops at a smaller improvement'),
+    rg.number('tolerance', 0, 1, 1e-8, 1e-12, 'the solver stops at a smaller improvement'),
     rg.number('noslip_iterations', 0, 1e6, 0, 0, 'sweeps that remove slip afterwards', true),
     rg.number('impratio', 1e-3, 1e6, 1, 10, 'stiffness of friction against that of normal forces'),
     rg.number('solref_timeconst', 0, 10, 0.02, 0, 'time constant of contacts and joints; never below two steps [s]'),
