@@ -31,11 +31,12 @@ export function kinds(columns: Column[]): { title: string; columns: Column[] }[]
     { title: 'Guests', columns: guests },
   ].filter((kind) => kind.columns.length > 0);
 }
-/** Columns by clock, in the order in which the clocks come. */
+/** Items by clock, those of modules first. */
 export function byClock<T>(list: T[], clock: (item: T) => string): { clock: string; items: T[] }[] {
   const found = new Map<string, T[]>();
   for (const item of list) found.set(clock(item), [...(found.get(clock(item)) ?? []), item]);
-  return [...found].map(([name, items]) => ({ clock: name, items }));
+  const groups = [...found].map(([name, items]) => ({ clock: name, items }));
+  return groups.sort((a, b) => a.clock.localeCompare(b.clock));
 }
 export const isFirstOfEngine = (columns: Column[], i: number): boolean =>
   i === 0 || columns[i - 1]?.engine !== columns[i]?.engine;
