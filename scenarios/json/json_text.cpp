@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "scenarios/model/printable.hpp"
+
 namespace rigor::scenario {
 namespace {
 
@@ -22,9 +24,16 @@ std::string withoutPrefix(std::string message) {
     return message;
 }
 
-/// Bracket depth outside strings; the parser recurses, so this comes before it.
-int depthOf(const std::string& text, std::size_t& where) {
-    int depth = 0, deepest = 0;
+struct Extent {
+    int depth = 0;            ///< levels of brackets outside strings
+    std::size_t deepest = 0;  ///< offset of the innermost bracket
+    std::size_t values = 1;   ///< number of values, at most
+};
+
+/// The parser recurses, and each value takes a hundred bytes: this comes before it.
+Extent extentOf(const std::string& text) {
+    Extent extent;
+    int depth = 0;
     bool inString = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
@@ -36,15 +45,18 @@ int depthOf(const std::string& text, std::size_t& where) {
         } else if (c == '"') {
             inString = true;
         } else if (c == '[' || c == '{') {
-            if (++depth > deepest) {
-                deepest = depth;
-                where = i;
+            ++extent.values;
+            if (++depth > extent.depth) {
+                extent.depth = depth;
+                extent.deepest = i;
             }
         } else if (c == ']' || c == '}') {
             --depth;
+        } else if (c == ',') {
+            ++extent.values;
         }
     }
-    return deepest;
+    return extent;
 }
 
 /// Walks text that is known to be valid JSON and notes where each value starts and which keys come twice.
@@ -54,16 +66,19 @@ class Locator {
     std::map<std::string, int> lines;
     std::vector<Problem> problems;
 
-    void value(const std::string& pointer) {
+    /// `lineAround`: where what the value stands in has its line. A value on the same line needs none of its own:
+    /// millions of numbers would take more memory for their places than for themselves.
+    void value(const std::string& pointer, int lineAround) {
         skipSpace();
-        lines.emplace(pointer, line_);
+        if (line_ != lineAround) lines.emplace(pointer, line_);
+        const int here = line_;
         const char c = text_[at_];
         if (c == '{')
-            object(pointer);
+            object(pointer, here);
         else if (c == '[')
-            array(pointer);
+            array(pointer, here);
         else if (c == '"')
-            (void)string();
+            refuseControl(string(), Lines::Keep, pointer, line_);
         else
             while (at_ < text_.size() &&
                    std::string_view(",]} \t\r\n").find(text_[at_]) == std::string_view::npos)
@@ -82,7 +97,16 @@ class Locator {
         ++at_;
         return Json::parse(text_.substr(begin, at_ - begin)).get<std::string>();
     }
-    void object(const std::string& pointer) {
+    /// Names and texts of a file reach terminals, pages and C interfaces of libraries.
+    void refuseControl(const std::string& text, Lines allowed, const std::string& pointer, int line) {
+        if (const std::string found = controlCharacter(text, allowed); !found.empty())
+            problems.push_back(
+                {"json.control_character", file_, pointer, line,
+                 "the control character " + found + (allowed == Lines::Escape ? " in a key" : " in a string"),
+                 allowed == Lines::Escape ? "keys without control characters"
+                                          : "text without control characters but line breaks and tabs"});
+    }
+    void object(const std::string& pointer, int here) {
         std::set<std::string> keys;
         ++at_;
         for (skipSpace(); text_[at_] != '}'; skipSpace()) {
@@ -93,21 +117,22 @@ class Locator {
             const int line = line_;
             const std::string key = string();
             const std::string child = pointer + "/" + escapeToken(key);
+            refuseControl(key, Lines::Escape, child, line);
             if (!keys.insert(key).second)
                 problems.push_back({"json.duplicate_key", file_, child, line,
                                     "the key '" + key + "' a second time", "each key once"});
             skipSpace();
             ++at_;  // the colon
-            value(child);
+            value(child, here);
         }
         ++at_;
     }
-    void array(const std::string& pointer) {
+    void array(const std::string& pointer, int here) {
         std::size_t index = 0;
         ++at_;
         for (skipSpace(); text_[at_] != ']'; skipSpace()) {
             if (text_[at_] == ',') ++at_;
-            value(pointer + "/" + std::to_string(index++));
+            value(pointer + "/" + std::to_string(index++), here);
         }
         ++at_;
     }
@@ -165,10 +190,13 @@ JsonDocument parseDocument(const std::string& text, const std::string& fileName)
     if (text.size() > kMaxBytes)
         refuse("json.size", 0, std::to_string(text.size()) + " bytes",
                "at most " + std::to_string(kMaxBytes));
-    std::size_t where = 0;
-    if (const int depth = depthOf(text, where); depth > kMaxDepth)
-        refuse("json.depth", where, std::to_string(depth) + " levels of brackets",
+    const Extent extent = extentOf(text);
+    if (extent.depth > kMaxDepth)
+        refuse("json.depth", extent.deepest, std::to_string(extent.depth) + " levels of brackets",
                "at most " + std::to_string(kMaxDepth));
+    if (extent.values > kMaxValues)
+        refuse("json.values", 0, std::to_string(extent.values) + " values",
+               "at most " + std::to_string(kMaxValues));
     JsonDocument document;
     try {
         document.value = Json::parse(text);
@@ -185,7 +213,7 @@ JsonDocument parseDocument(const std::string& text, const std::string& fileName)
         refuse("json.number", place == std::string::npos ? 0 : place, message, "numbers in double range");
     }
     Locator locator(text, fileName);
-    locator.value("");
+    locator.value("", 0);
     if (!locator.problems.empty()) throw LoadError(std::move(locator.problems));
     document.lines = std::move(locator.lines);
     return document;

@@ -18,6 +18,7 @@ using Json = nlohmann::json;
 /// Deeper files are refused before anything parses them: a scenario needs about ten levels.
 inline constexpr int kMaxDepth = 64;
 inline constexpr std::size_t kMaxBytes = 64u << 20;
+inline constexpr std::size_t kMaxValues = 5000000;  ///< more than a height field of 2000 x 2000 has
 
 struct JsonDocument {
     Json value;

@@ -33,8 +33,8 @@ bool Node::isObject(std::initializer_list<const char*> keys) const {
     }
     bool clean = true;
     for (const auto& [key, value] : value_->items()) {
-        if (std::any_of(keys.begin(), keys.end(), [&](const char* k) { return key == k; })) continue;
-        (*this)[key.c_str()].problem("schema.unknown_key", "the key '" + key + "'", "one of " + known);
+        if (std::any_of(keys.begin(), keys.end(), [&key = key](const char* k) { return key == k; })) continue;
+        (*this)[key].problem("schema.unknown_key", "the key '" + key + "'", "one of " + known);
         clean = false;
     }
     return clean;
@@ -45,7 +45,7 @@ bool Node::isArray() const {
     return value_->is_array();
 }
 
-Node Node::operator[](const char* key) const {
+Node Node::operator[](const std::string& key) const {
     return {value_->at(key), pointer_ + "/" + escapeToken(key), *context_};
 }
 Node Node::operator[](std::size_t index) const {
@@ -77,7 +77,7 @@ std::vector<std::pair<std::string, Node>> Node::members() const {
         problem("schema.type", "object");
         return nodes;
     }
-    for (const auto& [key, value] : value_->items()) nodes.emplace_back(key, (*this)[key.c_str()]);
+    for (const auto& [key, value] : value_->items()) nodes.emplace_back(key, (*this)[key]);
     return nodes;
 }
 

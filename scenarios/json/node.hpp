@@ -9,6 +9,8 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "scenarios/json/json_text.hpp"
@@ -25,8 +27,10 @@ struct ReadContext {
     const JsonDocument* document = nullptr;
     std::vector<Problem> problems;
     int dimension = 3;
-    Vec3 gravity{};             ///< gravity of the scene, for generators [m/s^2]
-    std::optional<int> size{};  ///< size of the scene, for Node::scaled
+    Vec3 gravity{};                                    ///< gravity of the scene, for generators [m/s^2]
+    std::optional<int> size{};                         ///< size of the scene, for Node::scaled
+    std::unordered_map<std::string, int> bodyIndex{};  ///< index of each body by its name, for readBodyName
+    std::unordered_set<std::string> jointNames{};
 };
 
 class Node {
@@ -49,7 +53,7 @@ class Node {
     bool isObject(std::initializer_list<const char*> keys) const;
     bool isArray() const;
     bool has(const char* key) const { return value_->is_object() && value_->contains(key); }
-    Node operator[](const char* key) const;
+    Node operator[](const std::string& key) const;
     Node operator[](std::size_t index) const;
     std::optional<Node> find(const char* key) const;
     /// The member, or null (reported) when it is missing.

@@ -4,13 +4,15 @@
 
 #include <utility>
 
+#include "scenarios/model/printable.hpp"
+
 namespace rigor::scenario {
 
 std::string Problem::text() const {
     std::string text = file;
     if (line > 0) text += ":" + std::to_string(line);
-    return text + ": " + (pointer.empty() ? "(document)" : pointer) + ": found " + found + ", expected " +
-           expected + " [" + id + "]";
+    return printable(text + ": " + (pointer.empty() ? "(document)" : pointer) + ": found " + found +
+                     ", expected " + expected + " [" + id + "]");
 }
 
 LoadError::LoadError(std::vector<Problem> problems)

@@ -144,7 +144,13 @@ Body readBody(const Node& node, const Scenario& scenario) {
 int readBodyName(const Node& node, const Scenario& scenario, bool mayBeWorld) {
     const std::string name = node.text();
     if (mayBeWorld && name == "world") return kNone;
-    const int index = findBody(scenario, name);
+    // Searching all bodies for each joint would take minutes for the largest nets.
+    auto& known = node.context().bodyIndex;
+    if (known.size() != scenario.bodies.size())
+        for (std::size_t i = 0; i < scenario.bodies.size(); ++i)
+            known.emplace(scenario.bodies[i].name, static_cast<int>(i));
+    const auto found = known.find(name);
+    const int index = found == known.end() ? kNone : found->second;
     if (index == kNone && node.json().is_string())
         node.problem("body.unknown", mayBeWorld ? "the name of a body of the file, or \"world\""
                                                 : "the name of a body of the file");

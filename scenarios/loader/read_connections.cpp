@@ -181,9 +181,9 @@ bool isDynamic(const Scenario& scenario, int body) {
 
 int readDynamicBody(const Node& node, const Scenario& scenario) {
     const int body = readBodyName(node, scenario, false);
-    if (findBody(scenario, node.json().is_string() ? node.json().get<std::string>() : "") != kNone &&
-        !isDynamic(scenario, body))
-        node.problem("body.not_dynamic", "a dynamic body");
+    const bool isKnown =
+        node.json().is_string() && node.context().bodyIndex.contains(node.json().get<std::string>());
+    if (isKnown && !isDynamic(scenario, body)) node.problem("body.not_dynamic", "a dynamic body");
     return body;
 }
 
@@ -236,8 +236,8 @@ void readJoints(const Node& list, Scenario& scenario) {
         if (!name || !type || !a || !b) continue;
         const auto clean = node.context().problems.size();
         joint.name = name->name();
-        for (const Joint& other : scenario.joints)
-            if (other.name == joint.name) name->problem("joint.duplicate", "a name that no other joint has");
+        if (!node.context().jointNames.insert(joint.name).second)
+            name->problem("joint.duplicate", "a name that no other joint has");
         joint.type = readJointType(*type);
         if (joint.type == JointType::Ball && node.dimension() == 2)
             type->problem("joint.type", "hinge: a ball joint in 2D is one");

@@ -3,6 +3,7 @@
 #include "scenarios/loader/study.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "scenarios/json/node.hpp"
 #include "scenarios/loader/overrides.hpp"
@@ -157,6 +158,31 @@ StudyPart readPart(const Node& node) {
     return part;
 }
 
+/// Product of the numbers of values.
+double placesOf(const std::vector<std::pair<std::string, std::vector<std::string>>>& grid) {
+    double places = 1.0;
+    for (const auto& [key, values] : grid) places *= static_cast<double>(values.size());
+    return places;
+}
+
+/// Runs of a part, those of an ensemble's members included.
+double runsOf(const StudyPart& part) {
+    const double steps = std::max<double>(1.0, static_cast<double>(part.timeSteps.size()));
+    const double starts = part.ensemble ? 1.0 + part.ensemble->members : 1.0;
+    return static_cast<double>(part.scenarios.size()) * static_cast<double>(part.variants.size()) * steps *
+           starts * placesOf(part.parameters) * placesOf(part.options);
+}
+
+/// Refuses a grid before anything of it is written out. `runs` counts those of the parts before.
+void checkSize(const Node& node, const StudyPart& part, double& runs) {
+    runs += runsOf(part);
+    if (runs <= kMaxStudyRuns) return;
+    char found[64];
+    std::snprintf(found, sizeof found, "a grid of %.4g runs", runs);
+    node.problem("study.size", found, "at most " + std::to_string(kMaxStudyRuns) + " in all parts");
+    runs = 0.0;
+}
+
 }  // namespace
 
 Study loadStudy(const fs::path& file) {
@@ -172,9 +198,11 @@ Study loadStudy(const fs::path& file) {
         if (const auto n = root.find("title")) study.title = n->text();
         if (const auto n = root.find("description")) study.description = n->text();
         if (const auto n = root.find("leave_out_absent")) study.leaveOutAbsent = n->boolean();
+        double runs = 0.0;
         if (const auto list = root.require("parts"))
             for (const Node& item : list->items()) {
                 StudyPart part = readPart(item);
+                checkSize(item, part, runs);
                 for (const StudyPart& other : study.parts)
                     if (!part.name.empty() && other.name == part.name)
                         item.problem("study.duplicate", "the name '" + part.name + "' a second time",

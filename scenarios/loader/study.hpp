@@ -15,6 +15,9 @@
 
 namespace rigor::scenario {
 
+/// Runs of a study are planned before the first begins, and each plan holds its scenario: more would not fit in memory.
+inline constexpr int kMaxStudyRuns = 200000;
+
 /// A way of running: an engine spec under a name of its own.
 struct StudyVariant {
     std::string name, engine;
