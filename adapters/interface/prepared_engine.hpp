@@ -15,7 +15,7 @@ struct PreparedEngine {
     Settings settings;
     /// A new world of a scenario that the engine was prepared for.
     std::unique_ptr<World> build(const Scenario& scenario, double dt) const {
-        return engine->dynamics()->build(scenario, dt, settings);
+        return engine.build(scenario, dt, settings);
     }
 };
 

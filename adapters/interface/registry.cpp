@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "adapters/interface/checked_world.hpp"
 #include "adapters/interface/guest.hpp"
 #include "scenarios/model/nearest.hpp"
 
@@ -171,6 +172,13 @@ std::filesystem::path moduleFor(const EngineSpec& spec) {
 }
 
 LoadedEngine::LoadedEngine(const std::filesystem::path& module) {
+    const KeepFloatEnvironment keep;
+    open(module);
+    if (const std::string changed = environment_.restore(); !changed.empty())
+        environmentChanges_ = changed + " when it is loaded";
+}
+
+void LoadedEngine::open(const std::filesystem::path& module) {
     if (module.extension() == kManifest) {
         const GuestManifest manifest = readGuestManifest(module);
         const auto host = guestHost();
@@ -183,17 +191,27 @@ LoadedEngine::LoadedEngine(const std::filesystem::path& module) {
 }
 
 LoadedEngine::LoadedEngine(LoadedEngine&& other) noexcept
-    : handle_(std::exchange(other.handle_, nullptr)), engine_(std::move(other.engine_)) {}
+    : handle_(std::exchange(other.handle_, nullptr)),
+      engine_(std::move(other.engine_)),
+      environment_(other.environment_),
+      environmentChanges_(std::move(other.environmentChanges_)) {}
 
 LoadedEngine& LoadedEngine::operator=(LoadedEngine&& other) noexcept {
     std::swap(handle_, other.handle_);
     std::swap(engine_, other.engine_);
+    std::swap(environment_, other.environment_);
+    std::swap(environmentChanges_, other.environmentChanges_);
     return *this;
 }
 
 // The library itself stays mapped: objects it made may outlive this one, and some libraries do not survive
 // being unloaded.
 LoadedEngine::~LoadedEngine() = default;
+
+std::unique_ptr<World> LoadedEngine::build(const Scenario& scenario, double dt,
+                                           const Settings& settings) const {
+    return buildChecked(*engine_->dynamics(), scenario, dt, settings, environment_, environmentChanges_);
+}
 
 LoadedEngine loadEngine(const EngineSpec& spec) {
     LoadedEngine engine(moduleFor(spec));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "adapters/interface/engine.hpp"
+#include "adapters/interface/float_environment.hpp"
 
 namespace rigor::adapter {
 
@@ -53,9 +54,16 @@ class LoadedEngine {
     const Engine& operator*() const { return *engine_; }
     const Engine* operator->() const { return engine_.get(); }
 
+    /// A world of its dynamics, which must be there, with every answer checked (checked_world.hpp).
+    std::unique_ptr<World> build(const Scenario& scenario, double dt, const Settings& settings) const;
+
   private:
+    void open(const std::filesystem::path& module);
+
     void* handle_ = nullptr;
     std::unique_ptr<Engine> engine_;
+    FloatEnvironment environment_;    ///< of the process before it was loaded
+    std::string environmentChanges_;  ///< what loading it did to that, which is undone
 };
 
 /// Loads the module of the spec into this process.

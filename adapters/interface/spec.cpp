@@ -119,8 +119,8 @@ Settings resolveSettings(const EngineSpec& spec, const Engine& engine) {
     for (const auto& option : options) settings[option.key] = presetValue(option, preset, own);
     for (const auto& [key, value] : spec.options) {
         if (key == "preset") continue;
-        const auto option =
-            std::find_if(options.begin(), options.end(), [&](const Option& o) { return o.key == key; });
+        const auto option = std::find_if(options.begin(), options.end(),
+                                         [&key = key](const Option& o) { return o.key == key; });
         if (option == options.end() && key == "precision") {
             if (value != "f32" && value != "f64")
                 throw BadInput("engine '" + spec.engine + "', key 'precision': found '" + value +

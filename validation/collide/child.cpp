@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "adapters/interface/checked_world.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "validation/collide/exchange.hpp"
 #include "validation/runner/answer.hpp"
@@ -59,7 +60,7 @@ CollisionAnswer answerBy(const adapter::CollisionEngine& engine, const adapter::
     by.settings = &settings;
     if (chosen != settings.end() && std::find(known.begin(), known.end(), chosen->second) != known.end())
         by.algorithm = chosen->second;
-    return engine.collide(by);
+    return adapter::collideChecked(engine, by);
 }
 
 CollideAnswer runQuery(const adapter::CollisionEngine& engine, const adapter::Settings& settings,

@@ -47,8 +47,7 @@ RecordedStep runToStep(const scenario::Scenario& s, const ExportRequest& request
     const adapter::LoadedEngine engine = adapter::loadEngine(request.spec);
     if (engine->dynamics() == nullptr)
         throw adapter::Unsupported("engine '" + request.spec.engine + "' simulates nothing");
-    const auto world =
-        engine->dynamics()->build(s, request.dt, adapter::resolveSettings(request.spec, *engine));
+    const auto world = engine.build(s, request.dt, adapter::resolveSettings(request.spec, *engine));
     RecordedStep recorded;
     recorded.dt = request.dt;
     recorded.before.resize(s.bodies.size());

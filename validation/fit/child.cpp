@@ -31,7 +31,7 @@ json measure(const Shared& shared, const scenario::Scenario& s, double dt) {
     adapter::checkScenarioInput(s, dt);
     adapter::checkSupported(s, shared.engine->capabilities(), shared.spec.engine);
     const auto reference = makeReference(s);
-    const auto world = shared.engine->dynamics()->build(s, dt, shared.settings);
+    const auto world = shared.engine.build(s, dt, shared.settings);
     const Simulation run = simulate(s, dt, *world, {});
     if (!run.nonFinite.empty()) return "non-finite: " + run.nonFinite;
     json values = json::array();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "adapters/interface/checked_world.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "validation/metrics/metric_parts.hpp"
 #include "validation/oracle/oracle.hpp"
@@ -173,7 +174,7 @@ AuditAnswers queryAuditor(const Scenario& scenario, const AuditCase& audited,
         said.answers.emplace_back();
         try {
             adapter::checkQueryInput(query);
-            const CollisionAnswer answer = engine.collide(query);
+            const CollisionAnswer answer = adapter::collideChecked(engine, query);
             comparison.add(q, answer);
             said.answers.back() = brief(q, answer);
             ++row.queries;

@@ -214,6 +214,10 @@ bool hasAuditablePairs(const Scenario& s) {
 
 AuditCase findQueries(const Scenario& s, const std::string& caseId, const std::filesystem::path& trajectory) {
     const results::TrajectoryFile file = results::readTrajectory(trajectory);
+    results::requireStates(file);
+    if (file.bodies.size() != s.bodies.size())
+        throw std::runtime_error(trajectory.string() + ": found " + std::to_string(file.bodies.size()) +
+                                 " bodies, expected " + std::to_string(s.bodies.size()));
     const std::vector<Candidate> pairs = candidates(s);
     AuditCase found;
     found.id = caseId;

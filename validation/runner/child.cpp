@@ -59,6 +59,8 @@ Outcome outcomeOf(const adapter::EngineFailure& failure) {
         case adapter::EngineFailure::Kind::Memory:
             return Outcome::OutOfMemory;
         case adapter::EngineFailure::Kind::Protocol:
+        case adapter::EngineFailure::Kind::Threw:
+        case adapter::EngineFailure::Kind::Answer:
             break;
     }
     return Outcome::Error;
@@ -101,7 +103,7 @@ std::vector<results::MetricRow> piecesOf(const scenario::Scenario& s, const adap
     const adapter::LoadedEngine engine = adapter::loadEngine(spec);
     const adapter::Settings settings = adapter::resolveSettings(spec, *engine);
     return measurePieces(
-        s, dt, every, [&](double step) { return engine->dynamics()->build(s, step, settings); }, reference);
+        s, dt, every, [&](double step) { return engine.build(s, step, settings); }, reference);
 }
 
 void removeMark(const json& request) {

@@ -40,6 +40,7 @@ ContactPoint storedContact(const results::ContactSample& c) {
 }  // namespace
 
 Trajectory trajectoryOf(const results::TrajectoryFile& file) {
+    results::requireStates(file);
     Trajectory t;
     t.dt = file.dt;
     t.stride = file.stride;
