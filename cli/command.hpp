@@ -117,6 +117,12 @@ std::filesystem::path recordedFolder();
 /// Throws std::invalid_argument when `baseline` names no run; empty is fine.
 void checkBaseline(const std::string& baseline);
 
+/// Prints "rigor: MESSAGE" to stderr. Control characters, which may come from a file or a module, are escaped.
+void say(const std::string& message);
+
+/// `code`, or kEnvironment with a message if the standard output could not be written to its end.
+int withOutputWritten(int code);
+
 /// Prints every problem of a LoadError to stderr, as text or as a JSON array on stdout.
 void printProblems(const scenario::LoadError& error, bool json);
 

@@ -13,10 +13,10 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <iostream>
 #include <optional>
 #include <stdexcept>
 
+#include "adapters/interface/engine_failure.hpp"
 #include "adapters/interface/types.hpp"
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
@@ -90,21 +90,24 @@ int runGuarded(const std::string& engine, const std::string& scenario,
             printProblems(error, false);
             code = kBadInput;
         } catch (const adapter::Unsupported& error) {
-            std::fprintf(stderr, "rigor: unsupported: %s\n", error.what());
+            say(std::string("unsupported: ") + error.what());
             code = kUnsupported;
+        } catch (const adapter::EngineFailure& error) {
+            say(engine + " failed in " + scenario + ": " + error.what());
+            code = kCrashed;
         } catch (const std::logic_error& error) {
-            std::fprintf(stderr, "rigor: %s\n", error.what());
+            say(error.what());
             code = kBadInput;
         } catch (const adapter::BadInput& error) {
-            std::fprintf(stderr, "rigor: %s\n", error.what());
+            say(error.what());
             code = kBadInput;
         } catch (const results::EnvironmentError& error) {
-            std::fprintf(stderr, "rigor: %s\n", error.what());
+            say(error.what());
             code = kEnvironment;
         } catch (const std::exception& error) {
-            std::fprintf(stderr, "rigor: internal error: %s\n", error.what());
+            say(std::string("internal error: ") + error.what());
         }
-        std::cout.flush();
+        code = withOutputWritten(code);
         std::fflush(nullptr);
         const bool reported = write(finished[1], "x", 1) == 1;
         _exit(reported ? code : kInternal);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "scenarios/model/nearest.hpp"
+#include "scenarios/model/printable.hpp"
 #include "validation/results/files.hpp"
 
 namespace rigor::cli {
@@ -66,7 +68,7 @@ bool saysUnknownWord(const CLI::App& app) {
     const std::string name = fullName(command), option = word.substr(0, word.find('='));
     std::fprintf(
         stderr, "%s: no %s '%s'%s; `%s --help` lists them\n", name.c_str(), isOption ? "option" : "command",
-        (isOption ? option : word).c_str(),
+        scenario::printable(isOption ? option : word).c_str(),
         (isOption ? scenario::didYouMean(option, optionsOf(command)) : scenario::didYouMean(word, commands))
             .c_str(),
         name.c_str());
@@ -86,7 +88,12 @@ int runCommand(int argc, char** argv, const Program& program) {
     } catch (const CLI::ParseError& error) {
         const bool isMistake = error.get_exit_code() != 0;
         if (isMistake && saysUnknownWord(app)) return kBadInput;
-        return app.exit(error) == 0 ? kOk : kBadInput;
+        // The library would print words of the command line as they are.
+        std::ostringstream text, message;
+        const int code = app.exit(error, text, message);
+        std::fputs(text.str().c_str(), stdout);
+        std::fputs(scenario::printable(message.str(), scenario::Lines::Keep).c_str(), stderr);
+        return code == 0 ? kOk : kBadInput;
     }
     return action();
 }
@@ -98,27 +105,27 @@ int runProgram(int argc, char** argv, const Program& program) {
         // The program runs itself again for every case; these are for programs.
         if (argc > 1 && std::string_view(argv[1]).starts_with("__"))
             return validation::childMain({argv + 1, argv + argc}, program.children);
-        return runCommand(argc, argv, program);
+        return withOutputWritten(runCommand(argc, argv, program));
     } catch (const scenario::LoadError& error) {
         printProblems(error, false);
         return kBadInput;
     } catch (const adapter::BadInput& error) {
-        std::fprintf(stderr, "rigor: %s\n", error.what());
+        say(error.what());
         return kBadInput;
     } catch (const adapter::Unsupported& error) {
-        std::fprintf(stderr, "rigor: unsupported: %s\n", error.what());
+        say(std::string("unsupported: ") + error.what());
         return kUnsupported;
     } catch (const std::invalid_argument& error) {
-        std::fprintf(stderr, "rigor: %s\n", error.what());
+        say(error.what());
         return kBadInput;
     } catch (const results::EnvironmentError& error) {
-        std::fprintf(stderr, "rigor: %s\n", error.what());
+        say(error.what());
         return kEnvironment;
     } catch (const std::filesystem::filesystem_error& error) {
-        std::fprintf(stderr, "rigor: %s\n", error.what());
+        say(error.what());
         return kEnvironment;
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "rigor: internal error: %s\n", error.what());
+        say(std::string("internal error: ") + error.what());
         return kInternal;
     }
 }

@@ -10,6 +10,7 @@
 
 #include "cli/command.hpp"
 #include "reports/model/view_model.hpp"
+#include "scenarios/model/printable.hpp"
 #include "validation/results/files.hpp"
 
 namespace rigor::cli {
@@ -72,7 +73,7 @@ void ProgressLine::update(const validation::Progress& p) {
         std::fprintf(stderr, "[%lld/%lld] %s  %s  dt=%.6g  %s  %.2f s%s%s%s\n",
                      static_cast<long long>(p.done), static_cast<long long>(p.total), c.scenario.c_str(),
                      c.spec.c_str(), c.dt, endingOf(c).c_str(), c.wallSeconds, eta.c_str(),
-                     c.reason.empty() ? "" : "  ", c.reason.c_str());
+                     c.reason.empty() ? "" : "  ", scenario::printable(c.reason).c_str());
     }
 }
 

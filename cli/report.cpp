@@ -24,12 +24,12 @@ void addReport(CLI::App& app, Action& action) {
                 std::vector<std::string> problems;
                 for (const auto& file : report::writeReports(*directory, &problems))
                     std::printf("%s\n", file.string().c_str());
-                for (const auto& problem : problems) std::fprintf(stderr, "rigor: %s\n", problem.c_str());
+                for (const auto& problem : problems) say(problem);
                 if (!problems.empty()) return static_cast<int>(kEnvironment);
             } catch (const results::EnvironmentError&) {
                 throw;
             } catch (const std::runtime_error& error) {  // no run, a broken one, or a folder we may not write
-                std::fprintf(stderr, "rigor: %s\n", error.what());
+                say(error.what());
                 return static_cast<int>(kBadInput);
             }
             return static_cast<int>(kOk);

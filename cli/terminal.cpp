@@ -3,13 +3,18 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <stdexcept>
 #include <string>
 
 #include "cli/command.hpp"
+#include "scenarios/model/printable.hpp"
 #include "scenarios/model/time_step.hpp"
+#include "validation/results/files.hpp"
 
 namespace rigor::cli {
 
@@ -52,6 +57,20 @@ int terminalColumns(int fileDescriptor) {
     winsize size{};
     if (ioctl(fileDescriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
     return 120;
+}
+
+void say(const std::string& message) {
+    std::fprintf(stderr, "rigor: %s\n", scenario::printable(message, scenario::Lines::Keep).c_str());
+}
+
+int withOutputWritten(int code) {
+    errno = 0;
+    const bool flushed = std::fflush(stdout) == 0;
+    const int error = flushed ? 0 : errno;  // unknown if an earlier call has met it
+    std::cout.flush();
+    if (flushed && std::ferror(stdout) == 0 && std::cout.good()) return code;
+    say(results::EnvironmentError("standard output", "cannot be written", error).what());
+    return kEnvironment;
 }
 
 double parseTimeStep(const std::string& text) {

@@ -111,8 +111,7 @@ std::vector<adapter::EngineSpec> allDynamicEngines() {
     for (const auto& name : adapter::availableEngines()) {
         const auto description = validation::describeEngine(name, ownBinary());
         if (!description.problem.empty())
-            std::fprintf(stderr, "rigor: engine %s left out: %s\n", name.c_str(),
-                         description.problem.c_str());
+            say("engine " + name + " left out: " + description.problem);
         else if (description.capabilities.dynamics)
             specs.push_back({name, {}});
     }

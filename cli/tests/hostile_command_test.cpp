@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What a user sees of files and modules that mean harm, and of an output that cannot be written.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "cli/tests/program.hpp"
+
+namespace rigor::cli_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string hostileFile(const std::string& name, const std::string& extra) {
+    const std::string file = testing::TempDir() + name;
+    std::ofstream(file)
+        << R"({"rigor": 1, "name": "hostile", "title": "t", "dimension": 3, "gravity": [0, -9.81, 0],
+  "duration": 0.2, "dt": [0.01], "materials": {"wood": {"friction": 0.5, "restitution": 0}},
+  "bodies": [{"name": "ball", "shapes": [{"sphere": {"radius": 1}}]}])"
+        << extra << "}";
+    return "'" + file + "'";
+}
+
+/// Standard output goes to a device that takes nothing; standard error is read.
+Result intoFullDevice(const std::string& arguments) {
+    const std::string file = testing::TempDir() + "errors";
+    Result result =
+        rigor(arguments + " >/dev/full 2>'" + file + "'; code=$?; cat '" + file + "'; exit $code");
+    return result;
+}
+
+TEST(HostileCommands, AFullOutputIsAnError) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    for (const char* command : {"list engines --json", "check --json free_flight", "list scenarios", "--help",
+                                "run free_flight --json --dt 1/60"}) {
+        const Result result = intoFullDevice(command);
+        EXPECT_EQ(result.code, 7) << command;
+        EXPECT_THAT(result.out, HasSubstr("rigor: standard output: cannot be written")) << command;
+    }
+}
+
+TEST(HostileCommands, ANulInAKeyIsOneProblemAmongOthers) {
+    const Result result = rigor("check " + hostileFile("nul.json", R"(, "a\u0000b": 1)") + " " +
+                                hostileFile("type.json", R"(, "tags": 3)") + " free_flight");
+    EXPECT_EQ(result.code, 2);
+    EXPECT_THAT(result.out, HasSubstr("/a\\x00b: found the control character U+0000 in a key"));
+    EXPECT_THAT(result.out, HasSubstr("/tags: found number 3"));
+    EXPECT_THAT(result.out, HasSubstr("free_flight: ok"));
+}
+
+TEST(HostileCommands, NoMessageSteersTheTerminal) {
+    for (const std::string& arguments :
+         {"check " + hostileFile("escape.json", ", \"\\u001b[31mred\": 1"),
+          "check " + hostileFile("raw.json", ", \"\x1b[31mred\": 1"),
+          std::string("check '/no/such/\x1b[31mfile.json'"), std::string("run '\x1b[31mfile' --engine rigor"),
+          std::string("run free_flight --engine '\x1b[31mengine'"), std::string("report '\x1b[31mfolder'"),
+          std::string("list '\x1b[31mwhat'"), std::string("check --'\x1b[31moption'")}) {
+        const Result result = rigor(arguments);
+        EXPECT_EQ(result.code, 2) << arguments;
+        EXPECT_THAT(result.out, Not(HasSubstr("\x1b"))) << arguments;
+    }
+}
+
+TEST(HostileCommands, AModuleThatFitsNothingIsARedRow) {
+    const std::string doubles = "RIGOR_ADAPTER_PATH=" RIGOR_BINARY_DIR "/tests/doubles";
+    const std::string file = hostileFile("good.json", "");
+    const Result contact = rigor("run " + file + " --engine double_hostile:fault=contact", true, doubles);
+    EXPECT_EQ(contact.code, 1) << contact.out;
+    EXPECT_THAT(contact.out, HasSubstr("contact 0 of a step names body 1000000, expected 0 to 0"));
+    const Result text = rigor("run " + file + " --engine double_hostile:fault=long_exception", true, doubles);
+    EXPECT_EQ(text.code, 1);
+    EXPECT_LT(text.out.size(), 6000u);
+    EXPECT_THAT(text.out, Not(HasSubstr("\x1b")));
+    const Result refusal =
+        rigor("run " + file + " --engine double_hostile:fault=long_refusal", true, doubles);
+    EXPECT_EQ(refusal.code, 4);
+    EXPECT_LT(refusal.out.size(), 6000u);
+}
+
+}  // namespace
+}  // namespace rigor::cli_test
