@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <poll.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -48,22 +49,51 @@ void openInBrowser(const std::string& url) {
     _exit(127);
 }
 
-/// Serves until Ctrl-C.
-int serve(view::Site& site, const std::string& title, const ViewArguments& a) {
-    const std::atomic<bool>& interrupted = catchInterrupts({SIGINT, SIGTERM, SIGHUP});
-    std::signal(SIGCHLD, SIG_DFL);
-    const view::Server server(site, a.port);
+void printLink(const view::Server& server, const std::string& title, bool json) {
     const std::string url = server.url();
-    if (a.json)
+    if (json)
         std::printf(
             "%s\n",
             nlohmann::ordered_json{{"name", title}, {"url", url}, {"port", server.port()}}.dump().c_str());
     else
-        std::printf("%s\n  %s\n  The link lets one browser in, once. Ctrl-C ends it.\n", title.c_str(),
-                    url.c_str());
+        std::printf(
+            "%s\n  %s\n  The link lets one browser in, once. Enter makes a new one and ends the session; "
+            "Ctrl-C ends the server.\n",
+            title.c_str(), url.c_str());
     std::fflush(stdout);
-    if (a.open) openInBrowser(url);
-    while (!interrupted) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
+/// True if Enter was pressed at the terminal that this program runs in the foreground of.
+bool enterWasPressed() {
+    if (!isTerminal(STDIN_FILENO) || tcgetpgrp(STDIN_FILENO) != getpgrp()) return false;
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    if (poll(&input, 1, 0) <= 0) return false;
+    char line[256];
+    return read(STDIN_FILENO, line, sizeof line) > 0;
+}
+
+volatile std::sig_atomic_t renewalAsked = 0;
+
+extern "C" void askRenewal(int) {
+    renewalAsked = 1;
+}
+
+/// Serves until Ctrl-C.
+int serve(view::Site& site, const std::string& title, const ViewArguments& a) {
+    const std::atomic<bool>& interrupted = catchInterrupts({SIGINT, SIGTERM, SIGHUP});
+    std::signal(SIGCHLD, SIG_DFL);
+    std::signal(SIGUSR1, askRenewal);
+    view::Server server(site, a.port);
+    printLink(server, title, a.json);
+    if (a.open) openInBrowser(server.url());
+    while (!interrupted) {
+        if (renewalAsked != 0 || enterWasPressed()) {
+            renewalAsked = 0;
+            server.renew();
+            printLink(server, title, a.json);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
     return kOk;
 }
 
@@ -94,9 +124,11 @@ void addView(CLI::App& app, Action& action) {
     auto* command =
         app.add_subcommand("view", "Watch a scenario run live, or a recorded run, in the browser");
     command->footer(
-        "A server on 127.0.0.1, for the browser that opens the printed link first. Live: play, step, step "
-        "by\n"
-        "stage, drag bodies, branch with other algorithms or values, save what is seen as a scenario.");
+        "A server on 127.0.0.1, for the browser that opens the printed link first; Enter or SIGUSR1 makes a "
+        "new link.\n"
+        "Live: play, step, step by stage, drag bodies, branch with other algorithms or values, save what is "
+        "seen\n"
+        "as a scenario.");
     command->add_option("SCENARIO|RUN", a->what, "Library name, scenario file, or folder of a run")
         ->required();
     addEngines(*command, a->engines, "Live: engine specs, one instance each (default: rigor)");

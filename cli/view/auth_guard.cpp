@@ -48,9 +48,21 @@ Decision refuse(int status, const char* reason) {
 // Cookies do not know ports: the name does.
 AuthGuard::AuthGuard(int port)
     : port_(std::to_string(port)),
+      cookieName_("rigor_view_" + port_),
       token_(randomWord()),
-      session_(randomWord()),
-      cookieName_("rigor_view_" + port_) {}
+      session_(randomWord()) {}
+
+std::string AuthGuard::token() const {
+    const std::lock_guard lock(mutex_);
+    return token_;
+}
+
+void AuthGuard::renew() {
+    const std::lock_guard lock(mutex_);
+    token_ = randomWord();
+    session_ = randomWord();
+    spent_ = false;
+}
 
 bool AuthGuard::isOurHost(const std::string& host) const {
     const std::string name = lower(host);
@@ -71,14 +83,14 @@ bool AuthGuard::hasCookie(const std::string& header) const {
 }
 
 Decision AuthGuard::judge(const Credentials& credentials) {
+    const std::lock_guard lock(mutex_);
     if (credentials.hosts != 1 || !isOurHost(credentials.host))
         return refuse(403, "this server has another name");
     const bool reads = credentials.method == "GET" || credentials.method == "HEAD";
     if (!reads && credentials.method != "POST") return refuse(405, "GET and POST");
     if (!credentials.token.empty() && credentials.path == "/" && credentials.method == "GET") {
-        const std::lock_guard lock(spending_);
         if (!same(credentials.token, token_) || spent_)
-            return refuse(403, "this link has been used; start `rigor view` again for another");
+            return refuse(403, "this link has been used; Enter makes a new one where `rigor view` runs");
         spent_ = true;
         return {Decision::Kind::StartSession, 303, "",
                 cookieName_ + "=" + session_ + "; Path=/; HttpOnly; SameSite=Strict"};

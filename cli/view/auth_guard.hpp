@@ -37,15 +37,18 @@ class AuthGuard {
     /// Draws token and session from the system's random numbers. Throws std::runtime_error.
     explicit AuthGuard(int port);
 
-    const std::string& token() const { return token_; }
+    std::string token() const;
+    /// Draws both again: the old link and the old cookie are good for nothing.
+    void renew();
     Decision judge(const Credentials& credentials);
 
   private:
     bool isOurHost(const std::string& host) const;
     bool hasCookie(const std::string& header) const;
 
-    std::string port_, token_, session_, cookieName_;
-    std::mutex spending_;
+    std::string port_, cookieName_;
+    mutable std::mutex mutex_;  ///< of all below
+    std::string token_, session_;
     bool spent_ = false;
 };
 

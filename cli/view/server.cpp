@@ -4,19 +4,16 @@
 
 #include <httplib.h>
 
-#include <atomic>
-#include <optional>
 #include <stdexcept>
-#include <thread>
 
 #include "cli/view/auth_guard.hpp"
+#include "cli/view/gate.hpp"
+#include "cli/view/request_stream.hpp"
 
 namespace rigor::view {
 namespace {
 
-constexpr std::size_t kThreads = 16;  ///< requests at a time; each that waits for frames takes one
 constexpr std::size_t kMostBody = 4 << 20;
-constexpr const char* kAddress = "127.0.0.1";
 
 Credentials credentialsOf(const httplib::Request& request) {
     Credentials credentials;
@@ -38,18 +35,24 @@ Request requestOf(const httplib::Request& received) {
     return request;
 }
 
+/// The HTTP library without its sockets and threads.
+class Http final : public httplib::Server {
+  public:
+    /// Reads one request and answers it. True: the connection may stay open.
+    bool serve(httplib::Stream& stream) {
+        bool closed = false;
+        return process_request(stream, false, closed, nullptr) && !closed;
+    }
+};
+
+/// Connection of the request that this thread answers.
+thread_local Connection* current = nullptr;
+
 }  // namespace
 
 struct Server::Impl {
-    explicit Impl(Site& s) : site(s) {
-        // The library's SO_REUSEPORT is left out, so that no other process can listen on this port.
-        http.set_socket_options([](auto) {});
-        http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    Impl(Site& s, int port, const GateLimits& limits) : site(s), gate(port, limits), guard(gate.port()) {
         http.set_payload_max_length(kMostBody);
-        http.set_keep_alive_timeout(2);
-        http.set_read_timeout(5);
-        http.set_write_timeout(10);
-        http.set_tcp_nodelay(true);
         http.set_default_headers({{"Content-Security-Policy", site.contentSecurityPolicy()},
                                   {"X-Content-Type-Options", "nosniff"},
                                   {"X-Frame-Options", "DENY"},
@@ -57,25 +60,44 @@ struct Server::Impl {
                                   {"Cross-Origin-Opener-Policy", "same-origin"},
                                   {"Cross-Origin-Resource-Policy", "same-origin"},
                                   {"Cache-Control", "no-store"}});
+        // The guard decides before the body of a request is read.
+        http.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+            return admit(request, response) ? httplib::Server::HandlerResponse::Unhandled
+                                            : httplib::Server::HandlerResponse::Handled;
+        });
         const auto handle = [this](const httplib::Request& request, httplib::Response& response) {
-            answer(request, response);
+            send(requested(requestOf(request)), response);
         };
         http.Get(".*", handle);
         http.Post(".*", handle);
+        gate.start([this](Connection& connection) { return serve(connection); });
     }
 
-    void answer(const httplib::Request& request, httplib::Response& response) {
-        const Decision decision = guard->judge(credentialsOf(request));
+    bool serve(Connection& connection) {
+        connection.known = false;
+        current = &connection;
+        RequestStream stream(connection);
+        const bool stays = http.serve(stream);
+        current = nullptr;
+        return stays && connection.known && !stream.hasEnded();
+    }
+
+    /// False: the response is complete.
+    bool admit(const httplib::Request& request, httplib::Response& response) {
+        const Decision decision = guard.judge(credentialsOf(request));
+        current->known = decision.kind != Decision::Kind::Refuse;
+        if (decision.kind == Decision::Kind::Allow) return true;
         if (decision.kind == Decision::Kind::StartSession) {
             response.set_header("Set-Cookie", decision.setCookie);
             response.set_redirect("/", 303);
-            return;
+            return false;
         }
-        Reply reply;
-        if (decision.kind == Decision::Kind::Refuse)
-            reply = problem(decision.status, decision.reason);
-        else
-            reply = requested(requestOf(request));
+        response.set_header("Connection", "close");
+        send(problem(decision.status, decision.reason), response);
+        return false;
+    }
+
+    static void send(Reply reply, httplib::Response& response) {
         response.status = reply.status;
         response.set_content(std::move(reply.body), reply.type.c_str());
     }
@@ -91,36 +113,29 @@ struct Server::Impl {
     }
 
     Site& site;
-    httplib::Server http;
-    std::optional<AuthGuard> guard;
-    int port = 0;
-    std::thread listening;
+    Gate gate;
+    AuthGuard guard;
+    Http http;
 };
 
-Server::Server(Site& site, int port) : impl_(std::make_unique<Impl>(site)) {
-    impl_->port = port != 0 ? (impl_->http.bind_to_port(kAddress, port) ? port : -1)
-                            : impl_->http.bind_to_any_port(kAddress);
-    if (impl_->port <= 0)
-        throw std::runtime_error("cannot listen on " + std::string(kAddress) + " port " +
-                                 std::to_string(port));
-    impl_->guard.emplace(impl_->port);
-    impl_->listening = std::thread([this] { impl_->http.listen_after_bind(); });
-    while (!impl_->http.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
+Server::Server(Site& site, int port, const GateLimits& limits)
+    : impl_(std::make_unique<Impl>(site, port, limits)) {}
 
 Server::~Server() {
     impl_->site.close();
-    impl_->http.stop();
-    impl_->listening.join();
+    impl_->gate.stop();
 }
 
 int Server::port() const {
-    return impl_->port;
+    return impl_->gate.port();
 }
 
 std::string Server::url() const {
-    return "http://" + std::string(kAddress) + ":" + std::to_string(impl_->port) +
-           "/?token=" + impl_->guard->token();
+    return "http://127.0.0.1:" + std::to_string(port()) + "/?token=" + impl_->guard.token();
+}
+
+void Server::renew() {
+    impl_->guard.renew();
 }
 
 }  // namespace rigor::view

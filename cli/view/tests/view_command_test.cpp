@@ -41,18 +41,23 @@ class Program {
             _exit(127);
         }
         close(ends[1]);
-        FILE* out = fdopen(ends[0], "r");
-        char line[512];
-        if (fgets(line, sizeof line, out) != nullptr) url_ = json::parse(line).at("url");
-        fclose(out);
+        out_ = fdopen(ends[0], "r");
+        url_ = nextUrl();
     }
     ~Program() {
+        fclose(out_);
         if (pid_ > 0) {
             kill(pid_, SIGKILL);
             waitpid(pid_, nullptr, 0);
         }
     }
     const std::string& url() const { return url_; }
+    /// Waits for the next link that it prints.
+    std::string nextUrl() {
+        char line[512];
+        return fgets(line, sizeof line, out_) != nullptr ? json::parse(line).at("url").get<std::string>()
+                                                         : "";
+    }
     pid_t pid() const { return pid_; }
     /// Sends the signal and waits; the exit code.
     int end(int signal) {
@@ -65,6 +70,7 @@ class Program {
 
   private:
     pid_t pid_ = -1;
+    FILE* out_ = nullptr;
     std::string url_;
 };
 
@@ -190,6 +196,19 @@ TEST_F(View, ARecordedRunIsServedWithItsTrajectories) {
         Packet::decode(browser.get("/trajectory/" + file.path().stem().string() + "?from=3&count=2")->body);
     EXPECT_EQ(frames.header["scenario"], "free_flight");
     EXPECT_EQ(frames.arrays.doubles("time").size(), 2u);
+    EXPECT_EQ(program.end(SIGINT), 0);
+}
+
+TEST_F(View, ASignalRenewsTheLink) {
+    Program program({"view", "slide_and_stop", "--engines", "rigor", "--json"});
+    Browser first(program.url());
+    EXPECT_EQ(first.status(), 303);
+    EXPECT_EQ(Browser(program.url()).status(), 403) << "used";
+    kill(program.pid(), SIGUSR1);
+    const std::string renewed = program.nextUrl();
+    EXPECT_NE(renewed, program.url());
+    EXPECT_EQ(Browser(renewed).status(), 303);
+    EXPECT_EQ(first.get("/")->status, 403);
     EXPECT_EQ(program.end(SIGINT), 0);
 }
 
