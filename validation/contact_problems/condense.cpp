@@ -86,6 +86,9 @@ class Dynamics {
     }
     void factor(const std::vector<Triplet>& A) {
         std::vector<Eigen::MatrixXd> blocks;
+        double entries = 0.0;
+        for (const auto& group : members_) entries += std::pow(static_cast<double>(group.size()), 2);
+        checkDenseSize(static_cast<std::size_t>(std::sqrt(entries)));
         for (const auto& group : members_) {
             const auto size = static_cast<Eigen::Index>(group.size());
             blocks.emplace_back(Eigen::MatrixXd::Zero(size, size));
@@ -120,6 +123,7 @@ void condense(ExportedProblem& exported) {
     std::vector<double> free = load(exported);
     dynamics.solveAll(free);
     p.q = p.w;
+    checkDenseSize(n);
     multiplyTransposedAdd(p.H, free, p.q);
     p.W.assign(n * n, 0.0);
     // Columns of H that touch each group.

@@ -17,6 +17,7 @@
 #include "validation/contact_problems/problem.hpp"
 #include "validation/results/files.hpp"
 #include "validation/results/hdf5_file.hpp"
+#include "validation/results/trial.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -51,7 +52,9 @@ SparseMatrix readMatrix(const Hdf5File& file, const std::string& group) {
     const std::vector<int> i = file.readIntegers(group + "/i", columns);
     const std::vector<double> x = file.readDoubles(group + "/x", columns);
     const auto refuse = [&group](const std::string& why) -> void { throw BadInput(group + ": " + why); };
-    if (m < 0 || n < 0) refuse("has a negative size");
+    if (m < 0 || n < 0 || m > kMostRows || n > kMostRows)
+        refuse("is " + std::to_string(m) + " x " + std::to_string(n) + ", expected 0 to " +
+               std::to_string(kMostRows) + " rows and columns");
     std::vector<Triplet> entries;
     if (nz >= 0) {
         const auto count = static_cast<std::size_t>(nz);
@@ -87,6 +90,7 @@ void readLocal(const Hdf5File& file, ExportedProblem& exported) {
     p.q = doublesAt(file, root + "/vectors/q");
     const SparseMatrix W = readMatrix(file, root + "/W");
     const std::size_t n = p.q.size();
+    checkDenseSize(n);
     if (static_cast<std::size_t>(W.rows) != n || static_cast<std::size_t>(W.columns) != n)
         throw BadInput(root + "/W is " + std::to_string(W.rows) + " x " + std::to_string(W.columns) +
                        ", expected the size of q, " + std::to_string(n));
@@ -165,9 +169,26 @@ SparseMatrix sparse(const std::vector<double>& W, std::size_t n) {
 
 ExportedProblem readFclib(const std::filesystem::path& path) {
     const std::string name = path.string();
+    try {
+        // These files come from elsewhere, and the HDF5 library may crash on a damaged one.
+        const std::string bytes = results::readFile(path);
+        if (const auto failure = results::failureInChild([&] { (void)parseFclib(bytes, name); });
+            !failure.empty())
+            throw BadInput(failure.starts_with(name + ": ") ? failure.substr(name.size() + 2) : failure);
+        return parseFclib(bytes, name);
+    } catch (const results::EnvironmentError&) {
+        throw;
+    } catch (const BadInput&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw BadInput(name + ": " + error.what());
+    }
+}
+
+ExportedProblem parseFclib(const std::string& bytes, const std::string& name) {
     ExportedProblem exported;
     try {
-        const Hdf5File file = Hdf5File::open(path);
+        const Hdf5File file = Hdf5File::fromImage(bytes);
         exported.isGlobal = file.exists("/fclib_global");
         if (!exported.isGlobal && !file.exists("/fclib_local"))
             throw BadInput("has neither /fclib_local nor /fclib_global");

@@ -5,6 +5,7 @@
 // "w", "M", "H"}, "solution": {"r"}; a matrix is {"n": [rows, columns], "rows", "cols", "vals"}, triplets
 // from 0.
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "validation/contact_problems/problem.hpp"
@@ -48,6 +49,7 @@ ExportedProblem fromJson(const json& j) {
         p.q = numbers(j, "q");
         const SparseMatrix W = matrixFrom(j.at("W"));
         const std::size_t n = p.q.size();
+        checkDenseSize(n);
         if (static_cast<std::size_t>(W.rows) != n || static_cast<std::size_t>(W.columns) != n)
             throw adapter::BadInput("/W/n: found " + std::to_string(W.rows) + " x " +
                                     std::to_string(W.columns) + ", expected " + std::to_string(n));
@@ -68,9 +70,13 @@ ExportedProblem readJsonProblem(const std::filesystem::path& file) {
     const std::string name = file.string();
     std::ifstream in(file, std::ios::binary);
     if (!in) throw adapter::BadInput(name + ": cannot be read");
+    return parseJsonProblem({std::istreambuf_iterator<char>(in), {}}, name);
+}
+
+ExportedProblem parseJsonProblem(const std::string& text, const std::string& name) {
     ExportedProblem exported;
     try {
-        exported = fromJson(json::parse(in));
+        exported = fromJson(json::parse(text));
     } catch (const json::exception& error) {
         throw adapter::BadInput(name + ": " + error.what());
     } catch (const adapter::BadInput& error) {

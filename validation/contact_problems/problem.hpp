@@ -30,7 +30,11 @@ struct Triplet {
     int row = 0, column = 0;
     double value = 0.0;
 };
-/// Entries of the same place add up; zeros are kept. Throws BadInput for places outside.
+/// Rows of a matrix, and unknowns of a dense one: a small file can claim any number.
+inline constexpr int kMostRows = 1 << 24, kMostDense = 1 << 14;
+/// Throws BadInput for more than kMostDense unknowns.
+void checkDenseSize(std::size_t unknowns);
+/// Entries of the same place add up; zeros are kept. Throws BadInput for places outside and for sizes beyond kMostRows.
 SparseMatrix fromTriplets(int rows, int columns, std::vector<Triplet> entries);
 std::vector<Triplet> toTriplets(const SparseMatrix& A);
 /// y += A x and y += A^T x.
@@ -56,5 +60,9 @@ void writeFclib(const ExportedProblem& exported, const std::filesystem::path& fi
 ExportedProblem readContactProblem(const std::filesystem::path& file);
 ExportedProblem readFclib(const std::filesystem::path& file);
 ExportedProblem readJsonProblem(const std::filesystem::path& file);
+/// The same from the content of a file, which `name` names in messages. The HDF5 library may crash on damaged bytes:
+/// readFclib tries them in a child first.
+ExportedProblem parseFclib(const std::string& bytes, const std::string& name);
+ExportedProblem parseJsonProblem(const std::string& text, const std::string& name);
 
 }  // namespace rigor::validation

@@ -14,7 +14,17 @@ std::size_t entry(int i) {
 
 }  // namespace
 
+void checkDenseSize(std::size_t unknowns) {
+    if (unknowns > static_cast<std::size_t>(kMostDense))
+        throw adapter::BadInput(std::to_string(unknowns) +
+                                " unknowns in one dense matrix, expected at most " +
+                                std::to_string(kMostDense));
+}
+
 SparseMatrix fromTriplets(int rows, int columns, std::vector<Triplet> entries) {
+    if (rows < 0 || columns < 0 || rows > kMostRows || columns > kMostRows)
+        throw adapter::BadInput("a matrix of " + std::to_string(rows) + " x " + std::to_string(columns) +
+                                ", expected 0 to " + std::to_string(kMostRows));
     for (const Triplet& e : entries)
         if (e.row < 0 || e.row >= rows || e.column < 0 || e.column >= columns)
             throw adapter::BadInput("entry (" + std::to_string(e.row) + ", " + std::to_string(e.column) +

@@ -18,6 +18,9 @@ namespace {
 constexpr std::size_t kChunkThreshold = 8192;  ///< values; smaller sets gain nothing from compression
 constexpr hsize_t kChunkValues = 16384;        ///< about 128 KiB of doubles per chunk
 constexpr unsigned kDeflateLevel = 1;
+constexpr hsize_t kMostValues = hsize_t{1} << 28;  ///< values of a dataset: a small file can claim any number
+constexpr hsize_t kMostColumns = 1 << 16;
+constexpr std::size_t kMostTextBytes = 16 << 20;
 constexpr std::size_t kMemoryIncrement = 1 << 16;  ///< growth of a file in memory [bytes]
 
 [[noreturn]] void failed(const std::string& what) {
@@ -56,10 +59,24 @@ void setAttribute(hid_t file, const std::string& path, const char* name, hid_t t
     check(H5Awrite(attribute, type, value), what);
 }
 
+/// The library writes as many values as the file has, wherever they go.
+void requireOne(hid_t attribute, const std::string& what) {
+    const Handle space(H5Aget_space(attribute), H5Sclose, what);
+    if (H5Sget_simple_extent_npoints(space) != 1) failed(what + ": it has not one value");
+}
+
+/// Length of a text of fixed size, its terminating zero included.
+std::size_t textSize(hid_t type, const std::string& what) {
+    const std::size_t size = H5Tget_size(type);
+    if (size == 0 || size > kMostTextBytes) failed(what + ": a text of " + std::to_string(size) + " bytes");
+    return size;
+}
+
 void getAttribute(hid_t file, const std::string& path, const char* name, hid_t type, void* value) {
     const std::string what = "read attribute " + path + "@" + name;
     const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, what);
     const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, what);
+    requireOne(attribute, what);
     check(H5Aread(attribute, type, value), what);
 }
 
@@ -101,7 +118,10 @@ std::vector<T> readValues(hid_t file, const std::string& path, int& columns, hid
     if (rank != 1 && rank != 2) failed(what + ": it has neither one nor two dimensions");
     hsize_t extent[2] = {0, 1};
     H5Sget_simple_extent_dims(space, extent, nullptr);
-    columns = extent[1];
+    if (extent[0] > kMostValues || extent[1] > kMostColumns || extent[0] * extent[1] > kMostValues)
+        failed(what + ": " + std::to_string(extent[0]) + " rows of " + std::to_string(extent[1]) +
+               " values are too many");
+    columns = static_cast<int>(extent[1]);
     std::vector<T> values(extent[0] * extent[1]);
     if (!values.empty()) check(H5Dread(set, memoryType, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
     return values;
@@ -253,7 +273,7 @@ std::string Hdf5File::readText(const std::string& path) const {
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 ||
         H5Sget_simple_extent_npoints(space) != 1)
         failed(what + ": it is no plain text");
-    std::string text(H5Tget_size(type), '\0');
+    std::string text(textSize(type, what), '\0');
     check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), what);
     return text.substr(0, text.find('\0'));
 }
@@ -279,7 +299,8 @@ std::string Hdf5File::text(const std::string& path, const char* name) const {
     const Handle type(H5Aget_type(attribute), H5Tclose, what);
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
         failed(what + ": it is no plain text");
-    std::string text(H5Tget_size(type), '\0');
+    requireOne(attribute, what);
+    std::string text(textSize(type, what), '\0');
     check(H5Aread(attribute, type, text.data()), what);
     return text.substr(0, text.find('\0'));
 }

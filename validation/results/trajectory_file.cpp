@@ -3,6 +3,8 @@
 #include "validation/results/trajectory_file.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "validation/results/files.hpp"
@@ -191,7 +193,58 @@ std::string imageOf(const TrajectoryFile& data) {
     return file.finish();
 }
 
-TrajectoryFile parsed(const std::string& bytes, bool withContacts) {
+/// Readers index the arrays by frame and body: a channel has its columns, and a row for each frame.
+void checkChannel(const std::string& what, const Channel& channel, int columns, std::size_t frames) {
+    if (channel.columns != columns || channel.values.size() != static_cast<std::size_t>(columns) * frames)
+        throw std::runtime_error(what + ": found " + std::to_string(channel.values.size()) + " values in " +
+                                 std::to_string(channel.columns) + " columns, expected " +
+                                 std::to_string(frames) + " rows of " + std::to_string(columns));
+}
+
+void checkBodies(const std::string& folder, const TrajectoryFile& data,
+                 const std::vector<BodyChannels>& bodies, bool whole) {
+    constexpr int kColumns[] = {3, 4, 3, 3};
+    for (const BodyChannels& body : bodies)
+        for (std::size_t i = 0; i < std::size(kChannels); ++i) {
+            const Channel& channel = body.*kChannels[i].channel;
+            if (whole || channel.columns != 0)
+                checkChannel(folder + "/" + body.name + "/" + kChannels[i].name, channel, kColumns[i],
+                             data.times.size());
+        }
+}
+
+void checkContacts(const TrajectoryFile& data) {
+    const auto bodies = static_cast<int>(data.bodies.size());
+    for (std::size_t i = 0; i < data.contacts.size(); ++i) {
+        const ContactSample& c = data.contacts[i];
+        for (const int body : {c.bodyA, c.bodyB})
+            if (body < 0 || body >= bodies)
+                throw std::runtime_error("contact " + std::to_string(i) + ": found body " +
+                                         std::to_string(body) + ", expected one of " +
+                                         std::to_string(bodies));
+        if (c.shapeA < 0 || c.shapeB < 0)
+            throw std::runtime_error("contact " + std::to_string(i) + ": found a shape below 0");
+    }
+}
+
+void checkWhole(const TrajectoryFile& data) {
+    if (!(data.dt >= 0.0) || !std::isfinite(data.dt))
+        throw std::runtime_error("dt: found " + std::to_string(data.dt) + ", expected seconds");
+    for (const auto& [name, stride] :
+         {std::pair{"stride", data.stride}, {"contact_stride", data.contactStride}})
+        if (stride < 1)
+            throw std::runtime_error(std::string(name) + ": found " + std::to_string(stride) +
+                                     ", expected at least 1");
+    checkBodies("/bodies", data, data.bodies, false);
+    checkBodies("/reference", data, data.reference, false);
+    for (const SeriesChannel& s : data.series)
+        checkChannel("/series/" + s.name, s.channel, 1, data.times.size());
+    checkContacts(data);
+}
+
+}  // namespace
+
+TrajectoryFile parseTrajectory(const std::string& bytes, bool withContacts) {
     Hdf5File file = Hdf5File::fromImage(bytes);
     const int format = file.integer("/", "rigor_trajectory");
     if (format > kFormat)
@@ -206,15 +259,19 @@ TrajectoryFile parsed(const std::string& bytes, bool withContacts) {
     if (format > 1) data.contactStride = file.integer("/", "contact_stride");
     int columns = 0;
     data.times = file.readDoubles("/time", columns);
+    if (columns != 1) throw std::runtime_error("/time has not one column");
     data.bodies = readBodies(file, "/bodies");
     data.reference = readBodies(file, "/reference");
     data.series = readSeries(file);
     data.contactInstantsKnown = format > kLastWithoutInstants;
     if (withContacts) data.contacts = readContacts(file);
+    checkWhole(data);
     return data;
 }
 
-}  // namespace
+void requireStates(const TrajectoryFile& file) {
+    checkBodies("/bodies", file, file.bodies, true);
+}
 
 bool contactsStored(const TrajectoryFile& file, std::size_t frame) {
     if (frame % static_cast<std::size_t>(std::max(1, file.contactStride)) != 0) return false;
@@ -238,10 +295,11 @@ TrajectoryFile readTrajectory(const fs::path& source, bool withContacts) {
         throw EnvironmentError(source, "is damaged: its checksum does not fit its content", 0);
     // A file of an older version has no seal. If it is damaged, the HDF5 library may crash on it.
     if (seal == Seal::Absent)
-        if (const auto failure = failureInChild([&] { (void)parsed(bytes, withContacts); }); !failure.empty())
+        if (const auto failure = failureInChild([&] { (void)parseTrajectory(bytes, withContacts); });
+            !failure.empty())
             throw EnvironmentError(source, "cannot be read as a trajectory: " + failure, 0);
     try {
-        return parsed(bytes, withContacts);
+        return parseTrajectory(bytes, withContacts);
     } catch (const std::exception& error) {
         throw EnvironmentError(source, std::string("cannot be read as a trajectory: ") + error.what(), 0);
     }

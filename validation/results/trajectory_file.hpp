@@ -56,6 +56,9 @@ struct TrajectoryFile {
     bool contactInstantsKnown = true;
 };
 
+/// Throws std::runtime_error if a body lacks a channel. Those that a file has fit its frames: reading checks that.
+void requireStates(const TrajectoryFile& file);
+
 /// True if the contacts of the step that begins at this frame are stored; the last frame begins none.
 bool contactsStored(const TrajectoryFile& file, std::size_t frame);
 
@@ -67,6 +70,9 @@ void writeTrajectory(const std::filesystem::path& file, const TrajectoryFile& da
 /// before the content is interpreted; a file without one is first tried in a child. `withContacts` false leaves
 /// contacts empty.
 TrajectoryFile readTrajectory(const std::filesystem::path& file, bool withContacts = true);
+/// The HDF5 content of a trajectory file, without its seal. The library may crash on bytes that it has not written.
+/// Throws std::runtime_error where its parts do not fit together.
+TrajectoryFile parseTrajectory(const std::string& bytes, bool withContacts = true);
 /// Reason why a trajectory is not to be trusted (missing, damaged, unreadable), naming the file; "" if it is whole.
 std::string trajectoryProblem(const std::filesystem::path& file);
 

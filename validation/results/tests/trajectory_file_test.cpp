@@ -50,8 +50,8 @@ TrajectoryFile sampleFile(std::size_t frames) {
     for (std::size_t i = 0; i < frames; ++i) {
         ContactSample c;
         c.time = 0.1 * i;
-        c.bodyA = i;
-        c.bodyB = 7;
+        c.bodyA = static_cast<int>(i % 6);
+        c.bodyB = 5;
         c.shapeA = 2;
         c.shapeB = 3;
         c.pointA[1] = 0.5;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/results/tests/edited_store.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <sstream>
+
+#include "validation/results/seals.hpp"
+
+namespace rigor::results::sample {
+namespace {
+
+bool isChange(const std::string& statement) {
+    for (const char* allowed : {"UPDATE ", "DELETE FROM ", "INSERT INTO "})
+        if (statement.starts_with(allowed)) return true;
+    return false;
+}
+
+}  // namespace
+
+void removeChecksums(const std::filesystem::path& store) {
+    SQLite::Database database(store.string(), SQLite::OPEN_READWRITE);
+    database.exec("PRAGMA journal_mode = DELETE");
+    database.exec("DROP TABLE seals; PRAGMA user_version = " + std::to_string(kFirstSchemaWithSeals - 1));
+}
+
+void changeStore(const std::filesystem::path& store, const std::string& statements) {
+    SQLite::Database database(store.string(), SQLite::OPEN_READWRITE);
+    std::istringstream lines(statements);
+    for (std::string line; std::getline(lines, line);) {
+        try {
+            if (isChange(line)) (void)SQLite::Statement(database, line).exec();
+        } catch (const SQLite::Exception&) {
+            // A statement that means nothing changes nothing.
+        }
+    }
+}
+
+}  // namespace rigor::results::sample
