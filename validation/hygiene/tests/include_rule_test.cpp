@@ -72,6 +72,8 @@ const std::vector<Rule>& rules() {
         {"validation/oracle", {"scenarios/model/"}},
         {"validation/statistics", {}},
         {"validation/results", {}},
+        {"validation/fuzz",
+         {"validation/", "adapters/interface/", "adapters/guest/frame.hpp", "scenarios/"}},
         {"validation", {"validation/", "adapters/interface/", "scenarios/"}},
         {"reports/encoding", {"validation/results/"}},
         {"reports/model", {"reports/encoding/", "validation/results/", "validation/statistics/"}},

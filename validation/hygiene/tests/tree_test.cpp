@@ -63,7 +63,9 @@ TEST(Tree, EveryFolderHasAReadme) {
                                "validation/studies",
                                "validation/symmetry",
                                "validation/chaos",
-                               "validation/live"})
+                               "validation/live",
+                               "validation/fuzz",
+                               "validation/same_bits"})
         EXPECT_TRUE(exists(std::string(folder) + "/README.md")) << folder;
 }
 
