@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "validation/fuzz/hdf5_tree.hpp"
 
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -21,7 +22,9 @@ std::vector<T> valuesOf(std::istream& in) {
         std::istringstream number(word);
         T value{};
         number >> value;
-        values.push_back(word == "nan" ? static_cast<T>(std::stod(word)) : value);
+        if constexpr (std::numeric_limits<T>::has_quiet_NaN)
+            if (word == "nan") value = std::numeric_limits<T>::quiet_NaN();
+        values.push_back(value);
     }
     return values;
 }
