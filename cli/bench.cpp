@@ -303,7 +303,9 @@ int bench(const BenchArguments& a) {
 }
 
 void addWhat(CLI::App& command, BenchArguments& a) {
-    command.add_option("WHAT", a.what, "Suites or scenarios (names or files); default: the suite 'bench'");
+    auto* what = command.add_option("WHAT", a.what,
+                                    "Suites or scenarios (names or files); default: the suite 'bench'");
+    offerNames(offerNames(what, kSuiteNames), kScenarioNames);
     command
         .add_option("--parts", a.parts,
                     "Isolated parts: their names with commas between, or 'all'; without WHAT no scenes")

@@ -37,7 +37,8 @@ int checkFiles(const CheckArguments& a) {
 void addCheck(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<CheckArguments>();
     auto* command = app.add_subcommand("check", "Validate scenario files: schema, meaning, reference");
-    command->add_option("FILE", arguments->files, "Scenario files or names")->required();
+    offerNames(command->add_option("FILE", arguments->files, "Scenario files or names")->required(),
+               kScenarioNames);
     command
         ->add_option("--set", arguments->overrides, "Override a value: KEY=VALUE, e.g. bodies.block.mass=2")
         ->allow_extra_args(false);

@@ -142,9 +142,10 @@ void addCollide(CLI::App& app, Action& action) {
     auto a = std::make_shared<CollideArguments>();
     auto* command =
         app.add_subcommand("collide", "Put collision queries to every engine and the exact oracle");
-    command->add_option(
+    auto* files = command->add_option(
         "FILE", a->files,
         "Files of cases (rigor_collision JSON, or one query per line), or names of the library");
+    offerNames(files, kCollisionNames);
     command->add_flag("--suite", a->suite, "All case files of the library");
     addRandom(*command, *a);
     addEngines(*command, a->engines,

@@ -14,7 +14,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 namespace rigor::scenario {
 class LoadError;
 struct LoadedScenario;
@@ -63,6 +64,9 @@ void addFit(CLI::App& app, Action& action);
 void addView(CLI::App& app, Action& action);
 void addConform(CLI::App& app, Action& action);
 void addNew(CLI::App& app, Action& action);
+void addNewScenario(CLI::App& command, Action& action);  ///< `scenario`, of the command `new`
+void addCompletion(CLI::App& app, Action& action);
+void addManual(CLI::App& app, Action& action);
 
 /// This program's own file.
 std::filesystem::path ownBinary();
@@ -93,6 +97,12 @@ bool isBrokenReference(const scenario::Problem& problem);
 bool isSuite(const std::string& name);
 /// The scenarios of `given`, in which suites stand for theirs.
 std::vector<std::string> scenarioNames(const std::vector<std::string>& given);
+
+/// What completion offers as a value of `option`: names of one kind. Every other value stays allowed. Returns `option`.
+inline constexpr const char *kEngineNames = "engine names", *kScenarioNames = "scenario names",
+                            *kSuiteNames = "suite names", *kStudyNames = "study names",
+                            *kCollisionNames = "collision names";
+CLI::Option* offerNames(CLI::Option* option, const char* kind);
 
 /// --engines SPECS, or other flags; an empty list is an error.
 void addEngines(CLI::App& command, std::string& engines, const std::string& help,

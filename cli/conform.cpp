@@ -90,9 +90,10 @@ std::string filterOf(const std::vector<std::string>& only) {
 fs::path kitProgram() {
     const fs::path binary = ownBinary();
     for (const fs::path& file : {binary.parent_path() / "conformance_test",
-                                 binary.parent_path().parent_path() / "tests/conformance_test"})
+                                 binary.parent_path().parent_path() / "tests/conformance_test",
+                                 binary.parent_path().parent_path() / "lib/rigor/conformance_test"})
         if (fs::exists(file)) return file;
-    throw std::runtime_error("the conformance kit is not built: build the target conformance_test");
+    throw std::runtime_error("the conformance kit is not here: build the target conformance_test");
 }
 
 /// The kit is another program: it gets the folders in which this one looks for engines.
@@ -242,7 +243,9 @@ int conform(const ConformArguments& a) {
 void addConform(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<ConformArguments>();
     auto* command = app.add_subcommand("conform", "Run the conformance kit on an engine, module or guest");
-    command->add_option("engine", arguments->engine, "Engine: NAME or NAME:precision=f32")->required();
+    offerNames(
+        command->add_option("engine", arguments->engine, "Engine: NAME or NAME:precision=f32")->required(),
+        kEngineNames);
     command->add_option("--only", arguments->only, "Sections, with commas between")->delimiter(',');
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("--markdown", arguments->markdown, "Print a summary for a README");

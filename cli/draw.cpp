@@ -230,8 +230,8 @@ void addDraw(CLI::App& app, Action& action) {
     auto a = std::make_shared<DrawArguments>();
     auto* command = app.add_subcommand(
         "draw", "Draw a scenario at a time, as an engine has it, as an SVG or PNG picture");
-    command->add_option("SCENARIO", a->scenario, "Name or file")->required();
-    command->add_option("-e,--engine", a->engine, "Engine spec (default: rigor)");
+    offerNames(command->add_option("SCENARIO", a->scenario, "Name or file")->required(), kScenarioNames);
+    offerNames(command->add_option("-e,--engine", a->engine, "Engine spec (default: rigor)"), kEngineNames);
     command->add_option("--at", a->at, "Time [s]; the step nearest to it is drawn (default 0)");
     command->add_option("--dt", a->timeStep,
                         "Time step in seconds (0.004 or 1/240); default: the scenario's first");

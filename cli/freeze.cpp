@@ -51,8 +51,8 @@ void addFreeze(CLI::App& app, Action& action) {
     auto a = std::make_shared<FreezeArguments>();
     auto* command =
         app.add_subcommand("freeze", "Write one step of a run as a contact problem (FCLIB's HDF5 layout)");
-    command->add_option("SCENARIO", a->scenario, "Name or file")->required();
-    command->add_option("-e,--engine", a->engine, "Engine spec (default: rigor)");
+    offerNames(command->add_option("SCENARIO", a->scenario, "Name or file")->required(), kScenarioNames);
+    offerNames(command->add_option("-e,--engine", a->engine, "Engine spec (default: rigor)"), kEngineNames);
     command->add_option("--dt", a->dt,
                         "Time step in seconds (0.004 or 1/240); default: the scenario's first");
     auto* step = command->add_option("--step", a->step, "The step, from 1 (default: the last)")

@@ -8,6 +8,7 @@
 #include "cli/command.hpp"
 #include "cli/import_model.hpp"
 #include "models/common/formats.hpp"
+#include "scenarios/loader/data_folder.hpp"
 #include "validation/import/importer.hpp"
 #include "validation/results/counted.hpp"
 
@@ -45,9 +46,11 @@ int runImport(const ImportArguments& a) {
     if (test > 0) std::printf("%s %td to score on (test.json)", train > 0 ? "," : ":", test);
     std::printf("\n");
     for (const auto& study : imported.studies)
-        std::printf("Findings: ./rigor study %s\n", (folder / (study.name + ".json")).c_str());
+        std::printf("Findings: %s study %s\n", scenario::programName().c_str(),
+                    (folder / (study.name + ".json")).c_str());
     if (std::filesystem::exists(folder / "fit.json"))
-        std::printf("Fit and score: ./rigor fit %s\n", (folder / "fit.json").c_str());
+        std::printf("Fit and score: %s fit %s\n", scenario::programName().c_str(),
+                    (folder / "fit.json").c_str());
     return kOk;
 }
 

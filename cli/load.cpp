@@ -77,7 +77,7 @@ bool isBrokenReference(const scenario::Problem& problem) {
 }
 
 void addEngines(CLI::App& command, std::string& engines, const std::string& help, const std::string& flags) {
-    command.add_option(flags, engines, help)->check([](const std::string& text) {
+    offerNames(command.add_option(flags, engines, help), kEngineNames)->check([](const std::string& text) {
         const bool empty = text.find_first_not_of(" ,") == std::string::npos;
         return empty ? "found '" + text + "', expected engine specs (`rigor list engines`)" : std::string();
     });

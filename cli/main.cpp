@@ -13,15 +13,15 @@
 int main(int argc, char** argv) {
     using namespace rigor::cli;
     using namespace rigor::validation;
-    return runProgram(
-        argc, argv,
-        {{addValidate, addRun,    addBench,   addList,  addStudy, addPieces,  addCollide, addFreeze,
-          addSolve,    addCheck,  addCompare, addMerge, addSweep, addHistory, addReport,  addRecord,
-          addImport,   addExport, addFit,     addView,  addDraw,  addConform, addNew},
-         {{"__bench", benchChild},
-          {"__collide", collideChild},
-          {"__fit", fitChild},
-          {"__export", exportChild},
-          {"__instance", instanceChild},
-          {"__solve", solveChild}}});
+    return runProgram(argc, argv,
+                      {{addValidate, addRun,    addBench,  addList,      addStudy, addPieces, addCollide,
+                        addFreeze,   addSolve,  addCheck,  addCompare,   addMerge, addSweep,  addHistory,
+                        addReport,   addRecord, addImport, addExport,    addFit,   addView,   addDraw,
+                        addConform,  addNew,    addManual, addCompletion},
+                       {{"__bench", benchChild},
+                        {"__collide", collideChild},
+                        {"__fit", fitChild},
+                        {"__export", exportChild},
+                        {"__instance", instanceChild},
+                        {"__solve", solveChild}}});
 }

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "cli/command.hpp"
+#include "scenarios/loader/data_folder.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -93,7 +94,7 @@ int newEngine(const NewEngineArguments& a) {
         throw std::invalid_argument(folder.string() + " is there already, and not empty");
     fs::create_directories(folder);
     for (const Copy& copy : t.files) {
-        const fs::path from = fs::path(RIGOR_SOURCE_DIR) / copy.from,
+        const fs::path from = scenario::templateFile(copy.from),
                        to = folder / replaced(copy.to, "NAME", a.name);
         std::ifstream in(from);
         if (!in) throw std::runtime_error("cannot read " + from.string());
@@ -104,7 +105,7 @@ int newEngine(const NewEngineArguments& a) {
             content = replaced(std::move(content), t.example, a.name);
             content = replaced(std::move(content), "free_flight.py", a.name + ".py");
             content = replaced(std::move(content), "free_flight.mjs", a.name + ".mjs");
-            content = replaced(std::move(content), "@RIGOR_SOURCE_DIR@", RIGOR_SOURCE_DIR);
+            content = replaced(std::move(content), "@RIGOR_SOURCE_DIR@", scenario::sourceFolder().string());
         }
         std::ofstream out(to);
         out << content;
@@ -129,6 +130,7 @@ void addNew(CLI::App& app, Action& action) {
         ->capture_default_str();
     engine->add_option("--folder", arguments->folder, "Where to write it; default: a folder of its name");
     engine->callback([arguments, &action] { action = [arguments] { return newEngine(*arguments); }; });
+    addNewScenario(*command, action);
 }
 
 }  // namespace rigor::cli

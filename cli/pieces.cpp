@@ -108,7 +108,9 @@ void addPieces(CLI::App& app, Action& action) {
     auto a = std::make_shared<PiecesArguments>();
     auto* command = app.add_subcommand(
         "pieces", "Put bodies back on the truth every k steps and measure one piece: fair in chaos too");
-    command->add_option("SCENARIO", a->scenarios, "Scenarios or suites, names or files")->required();
+    auto* what =
+        command->add_option("SCENARIO", a->scenarios, "Scenarios or suites, names or files")->required();
+    offerNames(offerNames(what, kSuiteNames), kScenarioNames);
     command->add_option("--every", a->every, "Steps of a piece: K1,K2,... (default 1,8,64)")
         ->delimiter(',')
         ->check(CLI::Range(1, 1000000));

@@ -11,6 +11,7 @@
 
 #include "adapters/interface/types.hpp"
 #include "cli/command.hpp"
+#include "scenarios/loader/data_folder.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "scenarios/model/nearest.hpp"
 #include "scenarios/model/printable.hpp"
@@ -19,14 +20,16 @@
 namespace rigor::cli {
 namespace {
 
+constexpr const char* kLauncher =
+    "\nThe launcher ./rigor builds first; ./rigor test builds and runs the tests, ./rigor test --all the "
+    "slow\n"
+    "ones too.";
 constexpr const char* kFooter =
     "Exit codes: 0 done and green, 1 something in the run is red, 2 bad command line or input file,\n"
     "            3 internal error, 4 the engine lacks what the scenario needs, 5 the engine crashed,\n"
     "            6 nothing is red, but a reference did not finish, ran out of memory or crashed,\n"
     "            7 the environment failed (no space, no permission, killed from outside, damaged files),\n"
     "            130 interrupted (a run can be resumed).\n"
-    "The launcher ./rigor builds first; ./rigor test builds and runs the tests, ./rigor test --all the slow\n"
-    "ones too.\n"
     "Engines are named by a spec: bullet, ode:stepper=quickstep,iterations=50, "
     "bullet:preset=matched,precision=f32.";
 
@@ -79,7 +82,8 @@ int runCommand(int argc, char** argv, const Program& program) {
     CLI::App app{"Rigor: rigid-body engines held to the same references"};
     app.name("rigor");
     app.set_version_flag("--version", std::string("rigor ") + RIGOR_VERSION);
-    app.footer(kFooter);
+    const bool isInstalled = scenario::sourceFolder().empty();
+    app.footer(std::string(kFooter) + (isInstalled ? "" : kLauncher));
     app.require_subcommand(1);
     Action action;
     for (const AddCommand add : program.commands) add(app, action);

@@ -242,8 +242,8 @@ int runHere(const RunArguments& a) {
 void addRun(CLI::App& app, Action& action) {
     auto a = std::make_shared<RunArguments>();
     auto* command = app.add_subcommand("run", "Run one case and print its metrics");
-    command->add_option("SCENARIO", a->scenario, "Name or file")->required();
-    command->add_option("-e,--engine", a->engine, "Engine spec (default: rigor)");
+    offerNames(command->add_option("SCENARIO", a->scenario, "Name or file")->required(), kScenarioNames);
+    offerNames(command->add_option("-e,--engine", a->engine, "Engine spec (default: rigor)"), kEngineNames);
     command->add_option("--dt", a->timeStep,
                         "Time step in seconds (0.004 or 1/240); default: the scenario's first");
     command

@@ -65,9 +65,11 @@ void addSolve(CLI::App& app, Action& action) {
     auto* command = app.add_subcommand(
         "solve", "Put contact problems to the solvers: residual against iterations and time");
     command->add_option("FILE", a->files, "Problems: FCLIB's .hdf5, or .json")->required();
-    command->add_option("-s,--solvers", a->solvers,
-                        "Specs, e.g. rigor:solver=nsgs,bullet; an engine without a solver means all of its "
-                        "solvers (default: of every engine that has some)");
+    auto* solvers = command->add_option(
+        "-s,--solvers", a->solvers,
+        "Specs, e.g. rigor:solver=nsgs,bullet; an engine without a solver means all of its "
+        "solvers (default: of every engine that has some)");
+    offerNames(solvers, kEngineNames);
     command
         ->add_option("--iterations", a->options.iterations,
                      "Numbers of iterations to allow, comma separated (default 1,2,5,...,2000)")

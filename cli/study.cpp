@@ -103,7 +103,9 @@ int runStudy(const StudyArguments& a) {
 void addStudy(CLI::App& app, Action& action) {
     auto a = std::make_shared<StudyArguments>();
     auto* command = app.add_subcommand("study", "Run a grid of choices and show them side by side");
-    command->add_option("STUDY", a->study, "Study file, or a name of `rigor list studies`")->required();
+    offerNames(
+        command->add_option("STUDY", a->study, "Study file, or a name of `rigor list studies`")->required(),
+        kStudyNames);
     command->add_option("--part", a->parts, "Only these parts")->delimiter(',');
     command->add_option("--out", a->out, "Run folder (default: runs/<study>-<time>)");
     command->add_option("-j,--jobs", a->jobs, "Cases at a time (default 1: timings are taken alone)")

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "cli/command.hpp"
+#include "scenarios/loader/data_folder.hpp"
 #include "scenarios/model/printable.hpp"
 #include "scenarios/model/time_step.hpp"
 #include "validation/results/files.hpp"
@@ -27,7 +28,7 @@ std::string ownCommandLine() {
     std::string text, argument;
     while (std::getline(in, argument, '\0')) {
         if (text.empty()) {
-            text = "./rigor";
+            text = scenario::programName();
             continue;
         }
         const bool plain =

@@ -263,8 +263,9 @@ void addValidate(CLI::App& app, Action& action) {
     auto a = std::make_shared<ValidateArguments>();
     auto* command = app.add_subcommand(
         "validate", "Run scenarios on engines, compare with the references, write the report");
-    command->add_option("WHAT", a->what,
-                        "Suites or scenarios (names or files); default: the suite 'standard'");
+    auto* what = command->add_option("WHAT", a->what,
+                                     "Suites or scenarios (names or files); default: the suite 'standard'");
+    offerNames(offerNames(what, kSuiteNames), kScenarioNames);
     addEngines(*command, a->engines,
                "Engine specs, comma separated; default: all installed, each in all of its presets");
     command

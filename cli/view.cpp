@@ -129,8 +129,10 @@ void addView(CLI::App& app, Action& action) {
         "Live: play, step, step by stage, drag bodies, branch with other algorithms or values, save what is "
         "seen\n"
         "as a scenario.");
-    command->add_option("SCENARIO|RUN", a->what, "Library name, scenario file, or folder of a run")
-        ->required();
+    auto* what =
+        command->add_option("SCENARIO|RUN", a->what, "Library name, scenario file, or folder of a run")
+            ->required();
+    offerNames(what, kScenarioNames);
     addEngines(*command, a->engines, "Live: engine specs, one instance each (default: rigor)");
     command->add_option("--dt", a->timeStep,
                         "Live: time step in seconds (0.004 or 1/240); default: the scenario's first");

@@ -19,6 +19,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rigorConfig.cmake.in rig
                               INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(rigorConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/rigorConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/rigorConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/rigor_engine.cmake
         DESTINATION ${package_dir} COMPONENT engine)
 
 if(RIGOR_TESTS)

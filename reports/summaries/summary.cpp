@@ -188,8 +188,8 @@ std::string whereSection(const results::Run& run) {
     std::string out;
     if (!run.directory.empty())
         out = "\nThe whole report: " + code(run.directory + "/index.html") +
-              ", tables in `tables/`, plots in `plots/`; replay: " + code("./rigor view " + run.directory) +
-              "\n";
+              ", tables in `tables/`, plots in `plots/`; replay: " +
+              code(results::programOf(run) + " view " + run.directory) + "\n";
     if (!run.command.empty()) out += "\n" + code(run.command) + "\n";
     return out;
 }

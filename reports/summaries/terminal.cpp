@@ -13,6 +13,7 @@
 #include "reports/encoding/text.hpp"
 #include "reports/model/view_model.hpp"
 #include "validation/results/counted.hpp"
+#include "validation/results/values.hpp"
 
 namespace rigor::report {
 namespace {
@@ -393,7 +394,7 @@ std::vector<std::string> verdictLines(const ViewModel& view, std::size_t width, 
 std::vector<std::string> whereLines(const results::Run& run) {
     if (run.directory.empty()) return {};
     return {"Report: " + plain(run.directory) + "/index.html",
-            "Replay: ./rigor view " + plain(run.directory)};
+            "Replay: " + results::programOf(run) + " view " + plain(run.directory)};
 }
 
 /// The scoreboard in `most` lines: all scenarios, or those with something to say.

@@ -8,6 +8,7 @@
 
 #include "scenarios/json/node.hpp"
 #include "scenarios/loader/collision_cases.hpp"
+#include "scenarios/loader/data_folder.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "scenarios/loader/schema_check.hpp"
 #include "scenarios/loader/study.hpp"
@@ -50,11 +51,10 @@ fs::path findEntry(const std::vector<LibraryEntry>& entries, const std::string& 
 fs::path libraryFolder() {
     if (const char* variable = std::getenv("RIGOR_SCENARIOS"); variable != nullptr && *variable != '\0')
         return variable;
-    const fs::path source = fs::path(RIGOR_SOURCE_DIR) / "scenarios" / "library";
     std::error_code error;
-    if (fs::is_directory(source, error)) return source;
-    const fs::path binary = fs::read_symlink("/proc/self/exe", error);
-    return binary.parent_path().parent_path() / "share" / "rigor" / "scenarios";
+    const fs::path folder = dataFolder() / "scenarios";
+    const fs::path target = fs::canonical(folder, error);  // of a build folder: that of the source tree
+    return error ? folder : target;
 }
 
 std::vector<LibraryEntry> listScenarios() {

@@ -46,8 +46,7 @@ struct LibraryEntry {
     std::string name, title;
     std::filesystem::path file;
 };
-/// The scenario library: RIGOR_SCENARIOS, else the folder the program was built from, else
-/// <prefix>/share/rigor/scenarios.
+/// The scenario library: RIGOR_SCENARIOS, else the scenarios of dataFolder() (data_folder.hpp).
 std::filesystem::path libraryFolder();
 std::vector<LibraryEntry> listScenarios();  ///< sorted by name; unreadable files are left out
 /// The scenes of the bench, which the suites' "*" and listScenarios() leave out: large, timed, without a

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "scenarios/loader/data_folder.hpp"
 #include "validation/bench/exchange.hpp"
 #include "validation/comparison/compare.hpp"
 #include "validation/hash.hpp"
@@ -105,7 +106,7 @@ std::vector<BenchWork> planScenes(const SceneRequest& request,
                     nlohmann::json{
                         {"spec", threaded.given}, {"dt", numberToJson(dt)}, {"scene", identityOf(scene.text)}}
                         .dump();
-                planned.command = "./rigor bench " + scene.arguments + " --engines " +
+                planned.command = scenario::programName() + " bench " + scene.arguments + " --engines " +
                                   shellWord(threaded.name) + " --threads " + std::to_string(threaded.threads);
                 work.push_back({std::move(planned), scene.text, scene.scenario});
             }

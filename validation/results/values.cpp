@@ -43,6 +43,10 @@ std::string finiteText(const std::optional<double>& value) {
     return value ? finiteText(*value) : "";
 }
 
+std::string programOf(const Run& run) {
+    return run.command.starts_with("rigor ") ? "rigor" : "./rigor";
+}
+
 std::string nonFiniteNote(std::initializer_list<NamedNumber> numbers) {
     std::string note;
     for (const auto& [name, value] : numbers)

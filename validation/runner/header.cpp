@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "scenarios/loader/data_folder.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/references/reference.hpp"
 #include "validation/results/files.hpp"
@@ -69,8 +70,8 @@ bool isLibraryScenario(const std::string& name, const std::string& text) {
 std::string reproduceCommand(const CasePlan& plan, const fs::path& run, bool fromLibrary) {
     const std::string scenario =
         fromLibrary ? plan.scenario.name : storedScenario(plan.scenario.name, run).string();
-    return "./rigor run " + shellWord(scenario) + " --engine " + shellWord(plan.spec.text()) + " --dt " +
-           results::exactText(plan.dt);
+    return scenario::programName() + " run " + shellWord(scenario) + " --engine " +
+           shellWord(plan.spec.text()) + " --dt " + results::exactText(plan.dt);
 }
 
 void writeScenarioFiles(const std::vector<CasePlan>& plan, const fs::path& run) {

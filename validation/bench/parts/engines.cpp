@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "adapters/interface/timed.hpp"
+#include "scenarios/loader/data_folder.hpp"
 #include "validation/runner/shell_word.hpp"
 #include "validation/statistics/quantile.hpp"
 
@@ -99,7 +100,8 @@ bool isWanted(const BenchRequest& request, const std::string& name, bool usual) 
 }
 
 std::string partCommand(const PlannedBench& planned, const BenchRequest& request) {
-    std::string command = "./rigor bench --parts " + planned.part + " --only " + shellWord(planned.name);
+    std::string command =
+        scenario::programName() + " bench --parts " + planned.part + " --only " + shellWord(planned.name);
     if (planned.engine != kInterface) command += " --engines " + shellWord(planned.engine);
     if (!planned.sizeUnit.empty()) command += " --size " + std::to_string(std::llround(planned.size));
     if (request.seed != BenchRequest{}.seed) command += " --seed " + std::to_string(request.seed);

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The Rigor authors
+#
+# Packs the Debian packages, looks at what each has and needs, unpacks all of them into a folder and runs the program from
+# there. lintian, where it is installed, must not complain.
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+find_program(DPKG_DEB dpkg-deb)
+find_program(SHLIBDEPS dpkg-shlibdeps)
+if(NOT DPKG_DEB OR NOT SHLIBDEPS)
+    message("SKIPPED: no dpkg-deb, or no dpkg-shlibdeps (package dpkg-dev)")
+    return()
+endif()
+run(${CMAKE_COMMAND} --build ${BUILD} --target rigor_packages)
+file(GLOB packages ${BUILD}/packages/*.deb)
+execute_process(COMMAND mktemp -d OUTPUT_VARIABLE folder OUTPUT_STRIP_TRAILING_WHITESPACE)
+foreach(package ${packages})
+    run(${DPKG_DEB} -x ${package} ${folder}/root)
+endforeach()
+
+# needs(<package> <dependency>): the package is there and depends on it.
+function(needs name dependency)
+    file(GLOB package ${BUILD}/packages/${name}_*.deb)
+    run(${DPKG_DEB} -f ${package} Depends)
+    expect("${dependency}" "what ${name} depends on")
+endfunction()
+needs(rigor "libc6 .*libhdf5-103")
+needs(rigor-engine-dev "libeigen3-dev, libtbb-dev, libhwy-dev")
+needs(rigor-dev "rigor-engine-dev \\(= ")
+foreach(pair bullet=libbullet box2d=libbox2d ode=libode fcl=libfcl)
+    string(REPLACE "=" ";" pair ${pair})
+    list(GET pair 0 engine)
+    list(GET pair 1 library)
+    if(EXISTS ${BUILD}/bin/adapters/rigor_adapter_${engine}.so)
+        needs(rigor-adapters-${engine} "${library}")
+        needs(rigor-adapters-${engine} "rigor \\(= ")
+    endif()
+endforeach()
+run(${folder}/root/usr/bin/rigor validate free_flight --engines rigor --out ${folder}/run)
+if(NOT EXISTS ${folder}/root/usr/share/man/man1/rigor-validate.1.gz)
+    message(FATAL_ERROR "no manual page of rigor-validate")
+endif()
+
+find_program(LINTIAN lintian)
+if(LINTIAN)
+    execute_process(COMMAND ${LINTIAN} --allow-root --fail-on error,warning ${packages} RESULT_VARIABLE code
+                    OUTPUT_VARIABLE out ERROR_VARIABLE out)
+    if(NOT code EQUAL 0)
+        message(FATAL_ERROR "lintian:\n${out}")
+    endif()
+endif()
+file(REMOVE_RECURSE ${folder})
