@@ -55,7 +55,7 @@ if(TARGET conformance_test)
 endif()
 
 # Guests of npm: their sources, and manifests beside the modules. Their libraries are not ours to install.
-install(DIRECTORY adapters/guest/engines DESTINATION ${data} ${program} PATTERN node_modules EXCLUDE
+install(DIRECTORY adapters/guest/engines DESTINATION ${data}/templates/adapters/guest ${program} PATTERN node_modules EXCLUDE
         PATTERN "rigor_adapter_*.json" EXCLUDE PATTERN "*.cmake" EXCLUDE)
 file(GLOB manifests CONFIGURE_DEPENDS adapters/guest/engines/*/rigor_adapter_*.json)
 foreach(manifest ${manifests})
@@ -63,8 +63,8 @@ foreach(manifest ${manifests})
     cmake_path(GET folder FILENAME guest)
     cmake_path(GET manifest FILENAME file)
     file(READ ${manifest} text)
-    string(JSON text SET "${text}" folder "\"../../../${data}/engines/${guest}\"")
-    string(JSON text SET "${text}" install "\"npm ci --ignore-scripts, in share/rigor/engines\"")
+    string(JSON text SET "${text}" folder "\"../../../${data}/templates/adapters/guest/engines/${guest}\"")
+    string(JSON text SET "${text}" install "\"npm ci --ignore-scripts, in share/rigor/templates/adapters/guest/engines\"")
     file(CONFIGURE OUTPUT installed_manifests/${file} CONTENT "${text}\n" @ONLY)
     install(FILES ${CMAKE_CURRENT_BINARY_DIR}/installed_manifests/${file} DESTINATION lib/rigor/adapters ${program})
 endforeach()

@@ -19,7 +19,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
                                                 WORLD_EXECUTE)
 set(name "The Rigor authors")
-set(email "rigor@localhost")
+set(email rigor@example.org)
 if(DEFINED ENV{DEBFULLNAME})
     set(name "$ENV{DEBFULLNAME}")
 endif()
@@ -65,26 +65,26 @@ string(REGEX REPLACE "\n\n" "\n.\n" licence "${licence}")
 string(REGEX REPLACE "\n" "\n " RIGOR_LICENCE "${licence}")
 configure_file(cmake/packages/copyright.in ${RIGOR_PACKAGE_FILES}/copyright @ONLY)
 
-set(about "Rigor runs the same scenarios on several rigid-body physics engines and holds the\n motions to reference solutions and to each other.")
+set(about "Rigor runs the same scenarios on several rigid-body physics engines and\nholds the motions to reference solutions and to each other.\n.")
 set(same "rigor (= ${PROJECT_VERSION})")
 foreach(engine ${RIGOR_OTHER_ENGINES})
     string(REPLACE "_" "-" package rigor-adapters-${engine})
     list(APPEND adapters ${package})
     rigor_package(adapters-${engine} ${package} SECTION science SHLIBDEPS DEPENDS ${same}
                   SUMMARY "engine ${engine} for the physics testbed Rigor"
-                  DESCRIPTION "${about}\n .\n This package holds the module through which Rigor runs the engine ${engine}.")
+                  DESCRIPTION "${about}\nThis package holds the module through which Rigor runs the engine\n${engine}.")
 endforeach()
 rigor_package(program rigor SECTION science SHLIBDEPS RECOMMENDS ${adapters} SUGGESTS python3-rigor nodejs npm python3
               SUMMARY "reference-validated testbed for rigid-body physics engines"
-              DESCRIPTION "${about}\n .\n This package holds the programs, the library of scenarios, and the in-house engine.")
+              DESCRIPTION "${about}\nThis package holds the programs, the library of scenarios, and the\nin-house engine.")
 rigor_package(engine rigor-engine-dev SECTION libdevel DEPENDS libeigen3-dev libtbb-dev libhwy-dev SUGGESTS cmake
               SUMMARY "rigid-body engine of Rigor, library and headers"
-              DESCRIPTION "${about}\n .\n This package holds the in-house engine, in 2D and 3D, for programs of one's own.")
+              DESCRIPTION "${about}\nThis package holds the in-house engine, in 2D and 3D, for programs of\none's own.")
 rigor_package(development rigor-dev SECTION libdevel
               DEPENDS "rigor-engine-dev (= ${PROJECT_VERSION})" nlohmann-json3-dev libsqlitecpp-dev libhdf5-dev zlib1g-dev pkg-config
               SUGGESTS cmake
               SUMMARY "adapter interface and results reader of Rigor"
-              DESCRIPTION "${about}\n .\n This package holds what modules of further engines are linked with, and the\n reader of stored runs.")
+              DESCRIPTION "${about}\nThis package holds what modules of further engines are linked with,\nand the reader of stored runs.")
 if(TARGET rigor_python_module AND RIGOR_PYTHON_RESULTS)
     execute_process(COMMAND ${RIGOR_PYTHON} -c "import sys; v = sys.version_info; print('python3 (>= %d.%d~), python3 (<< %d.%d)' % (v[0], v[1], v[0], v[1] + 1))"
                     OUTPUT_VARIABLE python OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -92,7 +92,7 @@ if(TARGET rigor_python_module AND RIGOR_PYTHON_RESULTS)
     rigor_package(python-package python3-rigor SECTION python SHLIBDEPS CONTROL ${scripts}
                   DEPENDS ${python} python3-numpy python3-pandas python3-h5py ${same}
                   SUMMARY "results and engine of Rigor in Python"
-                  DESCRIPTION "${about}\n .\n This package opens stored runs as data frames and arrays, starts the program, and\n steps the in-house engine.")
+                  DESCRIPTION "${about}\nThis package opens stored runs as data frames and arrays, starts the\nprogram, and steps the in-house engine.")
     set(python_targets rigor_python_module)
 endif()
 set(CPACK_COMPONENTS_ALL ${RIGOR_PACKAGE_COMPONENTS})
