@@ -5,6 +5,7 @@
 #
 #     program          bin/, lib/rigor/, share/rigor/, man pages, completion, documents
 #     adapters-<name>  lib/rigor/adapters/rigor_adapter_<name>*.so, one component for each other engine that was built
+#     readers          lib/rigor/readers/rigor-read-<format>, the readers of model files that were built
 #     engine           library and headers of the in-house engine (engine/package)
 #     development      the adapter interface and the reader of results
 #     python           the Python package (reports/python)
@@ -52,6 +53,11 @@ endforeach()
 list(REMOVE_DUPLICATES RIGOR_OTHER_ENGINES)
 if(TARGET conformance_test)
     install(TARGETS conformance_test RUNTIME DESTINATION lib/rigor ${program})
+endif()
+
+get_property(readers GLOBAL PROPERTY RIGOR_READERS)
+if(readers)
+    install(TARGETS ${readers} RUNTIME DESTINATION lib/rigor/readers COMPONENT readers)
 endif()
 
 # Guests of npm: their sources, and manifests beside the modules. Their libraries are not ours to install.

@@ -4,7 +4,7 @@
 # Debian packages: `cmake --build BUILD --target rigor_packages` (or `./rigor package`) writes them to BUILD/packages, one
 # for each component of RigorInstall.cmake that was built:
 #
-#     rigor  rigor-adapters-<engine>  rigor-engine-dev  rigor-dev  python3-rigor
+#     rigor  rigor-adapters-<engine>  rigor-readers  rigor-engine-dev  rigor-dev  python3-rigor
 #
 # DEBFULLNAME and DEBEMAIL name the maintainer, as for other tools of Debian.
 set(CPACK_GENERATOR DEB)
@@ -74,7 +74,13 @@ foreach(engine ${RIGOR_OTHER_ENGINES})
                   SUMMARY "engine ${engine} for the physics testbed Rigor"
                   DESCRIPTION "${about}\nThis package holds the module through which Rigor runs the engine\n${engine}.")
 endforeach()
-rigor_package(program rigor SECTION science SHLIBDEPS RECOMMENDS ${adapters} SUGGESTS python3-rigor nodejs npm python3
+if(readers)
+    rigor_package(readers rigor-readers SECTION science SHLIBDEPS DEPENDS ${same}
+                  SUMMARY "readers of model files for the physics testbed Rigor"
+                  DESCRIPTION "${about}\nThis package holds the readers of models of other simulators, and of\nmeshes.")
+    set(suggested rigor-readers)
+endif()
+rigor_package(program rigor SECTION science SHLIBDEPS RECOMMENDS ${adapters} SUGGESTS ${suggested} python3-rigor nodejs npm python3
               SUMMARY "reference-validated testbed for rigid-body physics engines"
               DESCRIPTION "${about}\nThis package holds the programs, the library of scenarios, and the\nin-house engine.")
 rigor_package(engine rigor-engine-dev SECTION libdevel DEPENDS libeigen3-dev libtbb-dev libhwy-dev SUGGESTS cmake
@@ -108,7 +114,7 @@ add_custom_target(
     rigor_packages
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${CPACK_PACKAGE_DIRECTORY}
     COMMAND ${CMAKE_CPACK_COMMAND} --config ${PROJECT_BINARY_DIR}/CPackConfig.cmake
-    DEPENDS rigor_program rigor_validate_program rigor_manual rigor_engine rigor_results ${python_targets} ${kit}
+    DEPENDS rigor_program rigor_validate_program rigor_manual rigor_engine rigor_results ${python_targets} ${readers} ${kit}
     WORKING_DIRECTORY ${PROJECT_BINARY_DIR}
     COMMENT "Packing"
     VERBATIM)

@@ -60,7 +60,14 @@ set(outside -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${pre
 run(${CMAKE_COMMAND} -S ${folder}/mine -B ${folder}/mine/build ${outside})
 run(${CMAKE_COMMAND} --build ${folder}/mine/build)
 set(ENV{RIGOR_ADAPTER_PATH} ${folder}/mine/build)
-run(${rigor} run free_flight --engine mine)
+file(WRITE ${folder}/flight.json [[{"rigor": 1, "name": "flight", "title": "A thrown ball", "dimension": 3,
+  "isolates": ["integrator"], "source": "Galilei 1638", "gravity": [0, -9.81, 0], "duration": 0.5, "dt": [0.0078125],
+  "materials": {"steel": {"friction": 0.1, "restitution": 0.5}},
+  "bodies": [{"name": "ball", "mass": 2, "position": [1, 2, 3], "velocity": [4, 5, -6], "collides": false,
+    "shapes": [{"sphere": {"radius": 0.1}}]}],
+  "observe": ["ball"], "reference": {"free_flight": {"body": "ball"}}, "metrics": ["scheme_position_max"],
+  "accept": {"*": {"scheme_position_max": 1e-11}}}]])
+run(${rigor} run ${folder}/flight.json --engine mine)
 if(EXISTS ${prefix}/lib/rigor/conformance_test)
     run(${rigor} conform mine --only description,motion)
 endif()
