@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
-#include "models/write/write.hpp"
+#include "scenarios/exchange/write/write.hpp"
 #include "scenarios/loader/loader.hpp"
 
 namespace rigor::cli {

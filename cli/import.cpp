@@ -7,7 +7,7 @@
 
 #include "cli/command.hpp"
 #include "cli/import_model.hpp"
-#include "models/common/formats.hpp"
+#include "scenarios/exchange/common/formats.hpp"
 #include "scenarios/loader/data_folder.hpp"
 #include "validation/import/importer.hpp"
 #include "validation/results/counted.hpp"

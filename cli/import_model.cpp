@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
-#include "models/common/formats.hpp"
+#include "scenarios/exchange/common/formats.hpp"
 #include "validation/runner/start_program.hpp"
 
 namespace rigor::cli {

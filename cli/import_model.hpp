@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "models/common/options.hpp"
+#include "scenarios/exchange/common/options.hpp"
 
 namespace CLI {
 class App;

@@ -59,7 +59,7 @@ const std::vector<Rule>& rules() {
         {"scenarios/generators", {"scenarios/json/", "scenarios/model/"}},
         {"scenarios/loader",
          {"scenarios/generators/", "scenarios/json/", "scenarios/model/", "scenarios/schema/"}},
-        {"models", {"models/", "scenarios/"}},
+        {"scenarios/exchange", {"scenarios/"}},
         {"adapters/interface", {"scenarios/model/"}},
         {"adapters/conformance", {"adapters/interface/", "scenarios/"}},
         {"adapters/rigor/python",
@@ -72,8 +72,7 @@ const std::vector<Rule>& rules() {
         {"validation/oracle", {"scenarios/model/"}},
         {"validation/statistics", {}},
         {"validation/results", {}},
-        {"validation/fuzz",
-         {"validation/", "adapters/interface/", "adapters/guest/frame.hpp", "scenarios/"}},
+        {"validation/fuzz", {"validation/", "adapters/interface/", "adapters/guest/frame.hpp", "scenarios/"}},
         {"validation", {"validation/", "adapters/interface/", "scenarios/"}},
         {"reports/encoding", {"validation/results/"}},
         {"reports/model", {"reports/encoding/", "validation/results/", "validation/statistics/"}},
@@ -88,8 +87,8 @@ const std::vector<Rule>& rules() {
          {"reports/", "validation/results/", "validation/statistics/", "reports/tests/browser_tool.cpp"}},
         // `rigor draw` draws the scenes of all engines with the lines of the in-house one.
         {"cli",
-         {"cli/", "engine/", "adapters/interface/", "adapters/rigor/convert_shape.hpp", "models/",
-          "scenarios/", "validation/", "reports/"}}};
+         {"cli/", "engine/", "adapters/interface/", "adapters/rigor/convert_shape.hpp", "scenarios/",
+          "validation/", "reports/"}}};
     return table;
 }
 
