@@ -156,8 +156,8 @@ class BlockGaussSeidel final : public Solver<S> {
         if (worst >= 0) input.monitor.after(input.velocities, worst);
     }
 
-    /// Newton's method solves contacts of few bodies sooner than sweeps that converge slowly. What it does not
-    /// solve is swept on.
+    /// Newton's method solves contacts of few bodies sooner than sweeps that converge slowly. Sweeps go on where
+    /// it does not.
     void finishEarly(const SolverInput<S>& input) {
         if (!mayFinish(input)) return;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
@@ -176,7 +176,7 @@ class BlockGaussSeidel final : public Solver<S> {
                input.friction == &frictionCone<Real>;
     }
 
-    /// Natural map of the blocks of a part [m/s], and what is asked of it.
+    /// Natural map of the blocks of a part [m/s], and where it is small enough.
     struct Residual {
         Real found = 0, goal = 0;
     };
@@ -285,7 +285,7 @@ class BlockGaussSeidel final : public Solver<S> {
     static constexpr int kPlainSweeps =
         2;  ///< before conjugate gradients: most parts of scenes at rest need no more
     static constexpr int kEarlyIterations = 6;  ///< sweeps before Newton's method takes the smallest parts,
-    static constexpr std::size_t kEarlyRows = 48;  ///< those of so many rows at most
+    static constexpr std::size_t kEarlyRows = 48;  ///< the most rows of these
     static constexpr int kFinishIterations = 30;   ///< fewer than that are too few to sort contacts by
     static constexpr int kFinishSteps = 12;
     static constexpr std::size_t kSmallRows = 128;  ///< n^3 / 3 is then less than a millisecond

@@ -50,7 +50,7 @@ class ContactGroups {
             Real largest = 0;
             std::uint32_t row = 0;
             for (const Block<S>& block : blocks) {
-                largest = std::max({largest, pushApart(g, row), rub(input, g, block, row)});
+                largest = std::max({largest, solveNormal(g, row), solveTangents(input, g, block, row)});
                 row += static_cast<std::uint32_t>(block.rows);
             }
             if (largest <= enough) break;
@@ -119,14 +119,15 @@ class ContactGroups {
     }
 
     /// The normal of a contact.
-    static Real pushApart(Group& g, std::uint32_t row) {
+    static Real solveNormal(Group& g, std::uint32_t row) {
         const Real step = std::max(Real(0), g.impulse[row] - g.invK[row] * g.w[row]) - g.impulse[row];
         change(g, row, step);
         return std::abs(step) / g.invK[row];
     }
 
     /// Its tangents, behind the normal.
-    static Real rub(const SolverInput<S>& input, Group& g, const Block<S>& block, std::uint32_t normal) {
+    static Real solveTangents(const SolverInput<S>& input, Group& g, const Block<S>& block,
+                              std::uint32_t normal) {
         if (block.rows < 2) return 0;
         using Vec2 = Eigen::Matrix<Real, 2, 1>;
         Vec2 impulse = Vec2::Zero(), velocity = Vec2::Zero();
@@ -157,7 +158,7 @@ class ContactGroups {
         }
     }
 
-    std::vector<std::size_t> offset_;  ///< of each group's matrix; kNone: it is not taken
+    std::vector<std::size_t> offset_;  ///< place of each group's matrix; kNone: it is not taken
     std::vector<std::uint8_t> made_;   ///< 1: there is one
     std::vector<Real> matrices_;       ///< W of one group after another, row by row
 };

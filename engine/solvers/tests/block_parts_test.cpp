@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the solver `block` is made of: sweeps over the contacts of two bodies, conjugate gradients over sweeps, the
+// The parts of the solver `block`: sweeps over the contacts of two bodies, conjugate gradients over sweeps, the
 // order of elimination, and the narrow matrices that it leads to.
 #include <gtest/gtest.h>
 

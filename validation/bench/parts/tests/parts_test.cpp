@@ -108,12 +108,18 @@ TEST(BroadPhasePart, EveryChoiceOfEveryEngineFindsAllPairsAndOursNoOthers) {
         if (!engine.starts_with("double")) r.engines.push_back(engine);
     r.sizes = {300};
     r.only = {"3D, random order", "2D, spatial order"};
-    const auto planned = planBroadPhases(r);
-    ASSERT_GE(planned.size(), 20u);
-    for (const PlannedBench& p : planned) {
+    int ran = 0;
+    for (const PlannedBench& p : planBroadPhases(r)) {
         SCOPED_TRACE(p.name + ", " + p.engine);
+        std::unique_ptr<TimedWork> work;
+        try {
+            work = makeBroadPhase(p);
+        } catch (const adapter::Unsupported&) {
+            continue;  // an engine of Debian that is optional has none
+        }
+        ++ran;
         for (const int round : {0, 1}) {
-            const auto done = makeBroadPhase(p)->run(round);
+            const auto done = work->run(round);
             EXPECT_TRUE(valid(done));
             EXPECT_EQ(qualityOf(done, "missed_pairs"), 0.0);
             EXPECT_THAT(countOf(done, "pairs"), AllOf(Ge(100.0), Le(200.0)));
@@ -124,6 +130,7 @@ TEST(BroadPhasePart, EveryChoiceOfEveryEngineFindsAllPairsAndOursNoOthers) {
             EXPECT_GT(done.cpu, 0.0);
         }
     }
+    EXPECT_GE(ran, 20);
 }
 
 TEST(BroadPhasePart, AForgottenPairMakesATimingInvalid) {
