@@ -179,7 +179,7 @@ Mechanism rankingsOver(const ViewModel& view, const std::vector<std::size_t>& sc
     for (const std::size_t s : scenarios) {
         m.scenarios.push_back(view.run().scenarios[s].name);
         const double finest = finestOf(view, s);
-        std::map<std::string, double> cheapest;  // by clock: times of different clocks are not compared
+        std::map<std::string, double> cheapest;  // key: the clock; times of different clocks are not compared
         for (std::size_t c = 0; c < view.columns().size(); ++c) {
             const auto it =
                 cheapest.emplace(view.columns()[c].clock, std::numeric_limits<double>::infinity()).first;

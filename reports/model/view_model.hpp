@@ -106,7 +106,7 @@ struct StepCost {
     double medianRatio = kNoNumber,
            meanRatio = kNoNumber;  ///< geometric means over the cheapest one's of the same
                                    ///< clock
-    std::string clock;             ///< of the column
+    std::string clock;             ///< clock of the column
 };
 
 /// Scenarios that speak to one mechanism, or to one thing that people simulate.

@@ -35,7 +35,7 @@ void removeVariants(scenario::StudyPart& part, const std::vector<std::string>& n
 
 std::vector<std::string> leaveOutAbsent(scenario::Study& study) {
     if (!study.leaveOutAbsent) return {};
-    std::map<std::string, std::string> reasons;  // by engine
+    std::map<std::string, std::string> reasons;  // key: the engine
     for (scenario::StudyPart& part : study.parts) {
         std::vector<std::string> gone;
         for (const scenario::StudyVariant& variant : part.variants)

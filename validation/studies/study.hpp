@@ -53,7 +53,7 @@ using ScenarioLoader = std::function<scenario::LoadedScenario(const std::string&
 using OptionLookup = std::function<std::vector<adapter::Option>(const std::string& engine)>;
 
 /// Takes the variants of engines that are not installed out of the study, with the findings about them, symptoms that
-/// need them, and parts of which nothing is left. Returns a line for each engine. Only where the study asks for it.
+/// need them, and parts of which nothing is left. Returns a line for each engine. Only where the study requests it.
 std::vector<std::string> leaveOutAbsent(scenario::Study& study);
 
 /// Lays out the grid. A spec without a preset runs in the preset `default`. `options` gives the engines that
