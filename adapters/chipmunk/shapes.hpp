@@ -8,7 +8,7 @@
 
 namespace rigor::chipmunk {
 
-/// How far the rectangle in place of a half-plane reaches [m].
+/// Extent of the rectangle in place of a half-plane [m].
 struct HalfPlane {
     Vec3 center;            ///< point of the world over which it is centred
     double reach = 1000.0;  ///< half of its length

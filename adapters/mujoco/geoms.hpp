@@ -11,7 +11,7 @@ namespace rigor::mujoco {
 /// A shape as MJCF: attributes of a geom, and the asset that it uses.
 struct GeomText {
     std::string attributes;  ///< type="..." size="..."
-    Pose frame;              ///< of the geom in the scenario's shape frame
+    Pose frame;              ///< frame of the geom in the scenario's shape frame
     std::string asset;       ///< element of <asset>, or ""
 };
 

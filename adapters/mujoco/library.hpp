@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Process-wide state of MuJoCo: errors become exceptions, warnings stay silent and are read from mjData, and a filter
-// of contacts asks the world.
+// of contacts reads the world.
 #pragma once
 
 #include "adapters/interface/pair_table.hpp"
@@ -10,10 +10,10 @@
 
 namespace rigor::mujoco {
 
-/// What the filter of contacts knows of a world.
+/// Tables of a world that the filter of contacts reads.
 struct ContactFilterData {
     const adapter::PairTable* pairs = nullptr;
-    std::vector<adapter::PairTable::ShapeRef> shapes;  ///< by geom
+    std::vector<adapter::PairTable::ShapeRef> shapes;  ///< shapes by geom
 };
 
 /// Installs the handlers, once in the process.

@@ -19,9 +19,9 @@ struct ModelSettings {
     int iterations = 100, noslipIterations = 0;
     double tolerance = 1e-8, impratio = 1.0;
     bool warmStart = true, safeReference = true, restitution = true;
-    double bounceFrequency = 1.0;  ///< of contacts with restitution [rad/s]
-    Softness softness;             ///< of contacts and of stops of joints
-    Softness rigid;                ///< of equalities and of bounds of distances
+    double bounceFrequency = 1.0;  ///< frequency of contacts with restitution [rad/s]
+    Softness softness;             ///< softness of contacts and of stops of joints
+    Softness rigid;                ///< softness of equalities and of bounds of distances
 };
 
 /// A motor of a joint coordinate: an actuator whose force the adapter sets at the start of each step.
@@ -40,7 +40,7 @@ struct Model {
     std::vector<adapter::PairTable::ShapeRef> shapes;  ///< scenario shapes by geom
     std::vector<std::vector<int>> geoms;               ///< geoms by scenario body and shape; -1: none
     std::vector<Motor> motors;
-    Surface common;         ///< of geoms that no explicit pair names
+    Surface common;         ///< surface of geoms that no explicit pair names
     int explicitPairs = 0;  ///< pairs of geoms whose surface is another
 };
 

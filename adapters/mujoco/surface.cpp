@@ -37,7 +37,7 @@ double restitutionOf(double z) {
     return std::exp(-z * time);
 }
 
-/// By bisection: e falls with the ratio.
+/// Bisection: e falls with the ratio.
 double dampingRatioOf(double restitution) {
     if (restitution >= 1.0) return 0.0;
     double low = 0.0, high = 1.0;

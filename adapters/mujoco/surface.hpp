@@ -16,7 +16,7 @@ struct Softness {
 
 /// Coefficients of a pair, as one contact has them.
 struct Surface {
-    double friction = 0.0;                  ///< of sliding
+    double friction = 0.0;                  ///< coefficient of sliding
     double torsional = 0.0, rolling = 0.0;  ///< [m]
     double restitution = 0.0;
     friend bool operator==(const Surface&, const Surface&) = default;
@@ -36,7 +36,7 @@ Surface surfaceOf(const scenario::PairCoefficients& pair);
 double restitutionOf(double dampingRatio);
 /// Its inverse, for 0 < e <= 1.
 double dampingRatioOf(double restitution);
-/// Of a contact with these solref and solimp of constant impedance; 0 where solref is a time constant.
+/// Restitution of a contact with these solref and solimp of constant impedance; 0 where solref is a time constant.
 double restitutionOf(const mjtNum* solref);
 
 }  // namespace rigor::mujoco

@@ -36,7 +36,7 @@ class Search {
         seen_.resize(scenario.bodies.size());
         for (int i = 0; i < count; ++i) setFrame(scenario.bodies[i], planar, forest_.links[i]);
         chooseJoints();
-        // From what is not moved by joints first, so that loops are closed as far away from it as possible.
+        // The search begins at bodies that joints do not move, so that loops are closed as far away from it as possible.
         for (int i = 0; i < count; ++i) {
             forest_.links[i].fixed = scenario.bodies[i].type == BodyType::Static;
             if (!isDynamic(i)) visit(i);

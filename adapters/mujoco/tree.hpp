@@ -14,20 +14,20 @@ namespace rigor::mujoco {
 using scenario::kNone;
 
 /// One body of the scenario in the trees. MuJoCo's body frame has its origin in the centre of mass; that of a dynamic
-/// body in space has the principal axes.
+/// body in 3D has the principal axes.
 struct Link {
     int parent = kNone;     ///< scenario body that it hangs on; kNone: the world
     int joint = kNone;      ///< scenario joint; kNone: none, a free or static body
     bool reversed = false;  ///< the joint's A hangs on its B
     bool fixed = false;     ///< static
     Pose frame;             ///< MuJoCo's body frame in the scenario's body frame
-    Vec3 moments;           ///< of inertia about the axes of `frame` [kg m^2]
+    Vec3 moments;           ///< moments of inertia about the axes of `frame` [kg m^2]
     Pose rest;              ///< initial pose in the frame of the parent
     std::vector<int> children;
 };
 
 struct Forest {
-    std::vector<Link> links;  ///< by scenario body
+    std::vector<Link> links;  ///< links by scenario body
     std::vector<int> order;   ///< parents before their children
     std::vector<int> loops;   ///< joints that close loops
 };

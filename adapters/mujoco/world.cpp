@@ -68,7 +68,7 @@ ModelSettings MujocoWorld::modelSettings() const {
     const double time = number("solref_time");
     s.softness = {{time > 0.0 ? time : 2.0 * dt_, number("solref_damping")},
                   {number("solimp_min"), number("solimp_max"), 0.001, 0.5, 2.0}};
-    // Equalities leave out how fast their rows turn: what swings on one strays by v^2 / (l k), so they are critically
+    // Equalities leave out how fast their rows turn: what swings on one drifts by v^2 / (l k), so they are critically
     // damped, which is stiffest for a time constant.
     s.rigid = s.softness;
     s.rigid.solref[1] = std::min(s.rigid.solref[1], 1.0);
@@ -185,7 +185,7 @@ void MujocoWorld::moveKinematic(const State& before) {
 }
 
 /// Poses and velocities of bodies at the state that the step has led to; contacts stay those of the step. Kinematics
-/// normalises the quaternions of the state, in bits that would depend on how often it is asked for.
+/// normalises the quaternions of the state, in bits that would depend on how often they are requested.
 void MujocoWorld::updatePoses() {
     const std::vector<mjtNum> positions(data_->qpos, data_->qpos + model_.model->nq);
     mj_kinematics(model_.model.get(), data_.get());

@@ -33,7 +33,7 @@ class MujocoWorld final : public adapter::World, public adapter::Snapshots, publ
     bool restore(const std::vector<unsigned char>& bytes) override;
 
   private:
-    /// What the next step starts from.
+    /// State that the next step starts from.
     struct State {
         std::vector<mjtNum> numbers;
     };

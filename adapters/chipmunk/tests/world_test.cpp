@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is Chipmunk's own: the order of a step, lines that its build writes, joints that break.
+// Behaviour of Chipmunk's own: the order of a step, lines that its build writes, joints that break.
 #include <cmath>
 #include <cstdlib>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What MuJoCo's own limits mean for a run: numbers that it takes for none, contacts beyond the room it has, restitution
+// MuJoCo's own limits in a run: numbers that it takes for none, contacts beyond the room it has, restitution
 // without a coefficient, single precision of height fields.
 #include <algorithm>
 #include <cmath>

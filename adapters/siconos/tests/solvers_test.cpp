@@ -47,7 +47,7 @@ TEST(Siconos, ASlidingPointIsBrakedAsFarAsItsConeAllows) {
         EXPECT_NEAR(found.r[0], 6.0, 1e-8);
         EXPECT_NEAR(found.r[1], -1.8 * 2.0 / std::sqrt(5.0), 1e-8);
         EXPECT_NEAR(found.r[2], -1.8 * 1.0 / std::sqrt(5.0), 1e-8);
-        const auto again = solve->run(2000, 1e-12);  // from r = 0, whatever came before
+        const auto again = solve->run(2000, 1e-12);  // the second run starts from r = 0 as well
         for (int i = 0; i < 3; ++i) EXPECT_NEAR(again.r[i], found.r[i], 1e-9);
     }
 }
