@@ -277,7 +277,7 @@ TEST(IncludeRule, ThirdPartyHeadersStayInTheirRooms) {
          {"adapters/box2d/", "adapters/conformance/plain_programs/box2d/"}},
         {std::regex(R"(#include\s*<fcl/)"), {"adapters/fcl/"}},
         {std::regex(R"(#include\s*<mujoco/)"),
-         {"adapters/mujoco/", "adapters/conformance/plain_programs/mujoco/"}},
+         {"adapters/mujoco/", "adapters/conformance/plain_programs/mujoco/", "scenarios/exchange/"}},
         {std::regex(R"(#include\s*<chipmunk/)"),
          {"adapters/chipmunk/", "adapters/conformance/plain_programs/chipmunk/"}},
         {std::regex(R"(#include\s*<fclib)"), {"validation/contact_problems/tests/oracle/"}},
