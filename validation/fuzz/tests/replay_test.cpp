@@ -46,7 +46,7 @@ TEST_P(Replay, EveryInputOfTheCorpus) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, testing::ValuesIn(targets()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 /// The seed is a trajectory, so that changed ones get past the first check.
 TEST(TrajectoryTrees, TheSeedIsWhole) {

@@ -70,7 +70,7 @@ TEST_F(SameBits, EnginesWithoutTheMeansAreNotCompared) {
 
 /// The run of `rigor run`, in this process, and that of `rigor validate`, in a child.
 TEST_F(SameBits, RunAndValidateEndInTheSame) {
-    const std::string text = scenario::readTextFile(scenario::findScenario("box_stack"));
+    const std::string text = scenario::loadScenario(scenario::findScenario("box_stack")).text;
     const auto cases = plan({text}, "rigor:precision=f32,preset=default,rigor:precision=f64,preset=default");
     const auto run = RunnerTest::run(cases, options());
     ASSERT_EQ(run.cases.size(), cases.size());
