@@ -139,7 +139,7 @@ class CheckedWorld : public World {
     std::unique_ptr<World> world_;
     std::size_t materials_;
     std::vector<std::size_t> shapes_;  ///< number of shapes of each body
-    FloatEnvironment environment_;     ///< of the harness
+    FloatEnvironment environment_;     ///< environment of the harness
     mutable std::string changes_;      ///< first change of it by the module
 };
 

@@ -62,8 +62,8 @@ class LoadedEngine {
 
     void* handle_ = nullptr;
     std::unique_ptr<Engine> engine_;
-    FloatEnvironment environment_;    ///< of the process before it was loaded
-    std::string environmentChanges_;  ///< what loading it did to that, which is undone
+    FloatEnvironment environment_;    ///< environment of the process before it was loaded
+    std::string environmentChanges_;  ///< changes by loading it, which are undone
 };
 
 /// Loads the module of the spec into this process.

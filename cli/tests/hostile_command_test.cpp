@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a user sees of files and modules that mean harm, and of an output that cannot be written.
+// Messages and exit codes for files and modules that mean harm, and for an output that cannot be written.
 #include <gmock/gmock.h>
 
 #include <filesystem>

@@ -47,7 +47,7 @@ class AuthGuard {
     bool hasCookie(const std::string& header) const;
 
     std::string port_, cookieName_;
-    mutable std::mutex mutex_;  ///< of all below
+    mutable std::mutex mutex_;  ///< guards all below
     std::string token_, session_;
     bool spent_ = false;
 };

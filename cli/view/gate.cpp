@@ -20,8 +20,8 @@ namespace {
 using std::chrono::milliseconds;
 constexpr const char* kAddress = "127.0.0.1";
 constexpr const char* kEndOfHead = "\r\n\r\n";
-constexpr milliseconds kGoodbye{1000};  ///< for a client to read its response and close
-constexpr milliseconds kGrace{2000};    ///< for requests that are under way when the server ends
+constexpr milliseconds kGoodbye{1000};  ///< time for a client to read its response and close
+constexpr milliseconds kGrace{2000};    ///< time for requests that are under way when the server ends
 
 int listenOn(int port) {
     const int file = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);

@@ -21,8 +21,9 @@
 namespace rigor::view {
 
 struct GateLimits {
-    std::chrono::milliseconds head{5000};   ///< from the connection, or its last response, to a complete head
-    std::chrono::milliseconds idle{15000};  ///< the same for a client that has shown the token
+    std::chrono::milliseconds head{
+        5000};  ///< time from the connection, or its last response, to a complete head
+    std::chrono::milliseconds idle{15000};     ///< the same for a client that has shown the token
     std::chrono::milliseconds request{45000};  ///< a request from its head to the end of its response
     std::size_t strangers =
         64;  ///< connections that have not shown the token; beyond it the oldest is closed
