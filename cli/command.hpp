@@ -98,7 +98,7 @@ bool isSuite(const std::string& name);
 /// The scenarios of `given`, in which suites stand for theirs.
 std::vector<std::string> scenarioNames(const std::vector<std::string>& given);
 
-/// What completion offers as a value of `option`: names of one kind. Every other value stays allowed. Returns `option`.
+/// Completion offers names of one kind as a value of `option`. Every other value stays allowed. Returns `option`.
 inline constexpr const char *kEngineNames = "engine names", *kScenarioNames = "scenario names",
                             *kSuiteNames = "suite names", *kStudyNames = "study names",
                             *kCollisionNames = "collision names";

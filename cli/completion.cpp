@@ -76,7 +76,7 @@ class Line {
     explicit Line(CLI::App& app) : command_(&app) {}
 
     void take(const std::string& word) {
-        if (word == "=") return;  // of --option=value, as bash splits it
+        if (word == "=") return;  // bash splits --option=value here
         if (option_ != nullptr && !word.starts_with("-")) {
             const bool takesMore = option_->get_expected_max() > 1 && option_->get_allow_extra_args();
             if (!takesMore) option_ = nullptr;
@@ -91,7 +91,7 @@ class Line {
         }
     }
 
-    /// What may follow, `begun` being the beginning of the next word.
+    /// The words that may follow; `begun` is the beginning of the next one.
     Names candidates(const std::string& begun) const {
         if (isUnknown_) return {};
         if (begun.starts_with("-")) return optionNames();

@@ -40,13 +40,13 @@ bool takesMany(const CLI::Option& option) {
     return option.get_items_expected_max() > 1;
 }
 
-/// What stands for an option's value: "INT"; empty for a flag.
+/// The word for an option's value: "INT"; empty for a flag.
 std::string valueName(const CLI::Option& option) {
     if (option.get_items_expected_max() == 0) return "";
     const std::string type = option.get_type_name();
     return type.substr(0, type.find(':'));
 }
-/// What its checks allow: "INT in [1 - 1024]"; empty if they say nothing.
+/// The values that its checks allow: "INT in [1 - 1024]"; empty if they say nothing.
 std::string allowedValues(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     const auto colon = type.find(':');
@@ -136,8 +136,8 @@ class Manual {
         for (const CLI::App* command : commandsOf(app_))
             commands += ".TP\n\\fB" + escaped(command->get_name()) + "\\fR\n" +
                         escaped(command->get_description() + ".") + "\n";
-        return headerOf("rigor", "compare rigid-body physics engines with reference solutions") +
-               ".SH SYNOPSIS\n" + synopsisOf("rigor", app_) + section("DESCRIPTION", kDescription) +
+        return headerOf(app_.get_name(), "compare rigid-body physics engines with reference solutions") +
+               ".SH SYNOPSIS\n" + synopsisOf(app_.get_name(), app_) + section("DESCRIPTION", kDescription) +
                section("COMMANDS", commands) + section("OPTIONS", itemsOf(app_, false)) + footerOf(app_) +
                section("ENVIRONMENT", kEnvironment) + section("SEE ALSO", seeAlso());
     }
@@ -195,7 +195,7 @@ int writeManual(const CLI::App& app, const fs::path& folder, const std::string& 
         file << text;
         if (!file.flush()) throw std::runtime_error("cannot write " + (folder / (name + ".1")).string());
     };
-    write("rigor", manual.programPage());
+    write(app.get_name(), manual.programPage());
     for (const CLI::App* command : commandsOf(app))
         write("rigor-" + command->get_name(), manual.commandPage(*command));
     return kOk;

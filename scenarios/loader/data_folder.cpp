@@ -28,8 +28,7 @@ fs::path ownFile() {
 fs::path dataFolder() {
     std::error_code error;
     for (fs::path folder = ownFile().parent_path(); folder.has_relative_path(); folder = folder.parent_path())
-        if (fs::path data = folder / "share" / "rigor"; fs::is_directory(data / "scenarios", error))
-            return data;
+        if (fs::path data = folder / "share/rigor"; fs::is_directory(data / "scenarios", error)) return data;
     return {};
 }
 
@@ -44,7 +43,8 @@ fs::path sourceFolder() {
 }
 
 std::string programName() {
-    return sourceFolder().empty() ? "rigor" : "./rigor";
+    const std::string launcher = "./rigor";
+    return sourceFolder().empty() ? launcher.substr(2) : launcher;
 }
 
 }  // namespace rigor::scenario

@@ -20,7 +20,7 @@ std::filesystem::path templateFile(const std::filesystem::path& path);
 /// The source tree that this program was built from; empty for an installed program.
 std::filesystem::path sourceFolder();
 
-/// How this program is called: "./rigor", the launcher of the source tree, or "rigor".
+/// The command that starts this program: the launcher of the source tree, or, installed, the program itself.
 std::string programName();
 
 }  // namespace rigor::scenario

@@ -53,7 +53,7 @@ fs::path libraryFolder() {
         return variable;
     std::error_code error;
     const fs::path folder = dataFolder() / "scenarios";
-    const fs::path target = fs::canonical(folder, error);  // of a build folder: that of the source tree
+    const fs::path target = fs::canonical(folder, error);  // a build folder links to the source tree
     return error ? folder : target;
 }
 

@@ -44,7 +44,7 @@ std::string finiteText(const std::optional<double>& value) {
 }
 
 std::string programOf(const Run& run) {
-    return run.command.starts_with("rigor ") ? "rigor" : "./rigor";
+    return run.command.starts_with("rigor ") ? run.command.substr(0, run.command.find(' ')) : "./rigor";
 }
 
 std::string nonFiniteNote(std::initializer_list<NamedNumber> numbers) {

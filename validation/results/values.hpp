@@ -22,7 +22,7 @@ std::optional<double> steppingTime(const CaseRow& row);
 /// "2.4.0", or "2.4.0 (package 2.4.1)" where library and package do not agree.
 std::string versionText(const EngineRow& engine);
 
-/// How the program is called where a run was made, by its stored command: "rigor" or "./rigor".
+/// The first word of a run's stored command: the program or, of a source tree, its launcher.
 std::string programOf(const Run& run);
 
 /// "not a number", "infinite", "minus infinite"; "" for a finite value.
