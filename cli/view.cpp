@@ -49,9 +49,9 @@ void openInBrowser(const std::string& url) {
     _exit(127);
 }
 
-void printLink(const view::Server& server, const std::string& title, bool json) {
+void printLink(const view::Server& server, const std::string& title, bool asJson) {
     const std::string url = server.url();
-    if (json)
+    if (asJson)
         std::printf(
             "%s\n",
             nlohmann::ordered_json{{"name", title}, {"url", url}, {"port", server.port()}}.dump().c_str());

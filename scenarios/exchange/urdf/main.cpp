@@ -285,7 +285,7 @@ class Robot {
         }
     }
 
-    /// Free in the plane normal to the axis, and about the axis.
+    /// Free along two normals of the axis, and about the axis.
     void addPlanar(const urdf::Joint& joint, const Vec3& at, const Vec3& axis, const Place& place, int a,
                    int b) {
         const Vec3 other = std::abs(axis.x) < 0.7 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0};

@@ -37,7 +37,7 @@ TEST(Tree, EveryFolderHasAReadme) {
     for (const char* folder : {"engine",
                                "adapters",
                                "scenarios",
-                               "models",
+                               "scenarios/exchange",
                                "validation",
                                "reports",
                                "reports/web",
