@@ -33,7 +33,8 @@ set(program COMPONENT program)
 install(TARGETS rigor rigor-validate RUNTIME DESTINATION bin ${program})
 install(DIRECTORY scenarios/library/ DESTINATION ${data}/scenarios ${program} FILES_MATCHING PATTERN "*.json")
 install(DIRECTORY scenarios/schema/ DESTINATION ${data}/schema ${program})
-install(DIRECTORY adapters/guest/sdk adapters/guest/examples DESTINATION ${data}/templates/adapters/guest ${program})
+install(DIRECTORY adapters/guest/sdk adapters/guest/examples DESTINATION ${data}/templates/adapters/guest ${program}
+        PATTERN __pycache__ EXCLUDE)
 install(FILES adapters/conformance/examples/free_flight.cpp adapters/conformance/examples/CMakeLists.txt.in
         DESTINATION ${data}/templates/adapters/conformance/examples ${program})
 

@@ -28,8 +28,14 @@ unset(ENV{DESTDIR})
 set(prefix ${folder}/moved)
 file(RENAME ${folder}/stage/opt/rigor ${prefix})
 
-# No file names a folder of the build or of the sources.
-execute_process(COMMAND grep -rlF -e ${BUILD} -e ${SOURCE} ${prefix} OUTPUT_VARIABLE named)
+# No file names a folder of the build or of the sources. A library may name the header in which a check has failed, but no
+# folder in which programs look for files.
+execute_process(COMMAND grep -rlIF -e ${BUILD} -e ${SOURCE} ${prefix} OUTPUT_VARIABLE named)
+execute_process(
+    COMMAND grep -rlF -e ${BUILD} -e ${SOURCE}/scenarios -e ${SOURCE}/adapters -e ${SOURCE}/reports -e ${SOURCE}/validation
+            ${prefix}
+    OUTPUT_VARIABLE looked)
+string(APPEND named "${looked}")
 if(named)
     message(FATAL_ERROR "these files name folders of the build or of the sources:\n${named}")
 endif()

@@ -303,7 +303,8 @@ class _Server:
 def serve(guest):
     """Answers requests until the input ends."""
     output = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what is printed goes to the log
+    os.dup2(2, 1)  # what is printed goes to the log, a line at once: a guest may end without a last one
+    sys.stdout.reconfigure(line_buffering=True)
     server = _Server(guest)
     while (frame := read_frame(sys.stdin.buffer)) is not None:
         header, found = server.answer(*frame)
