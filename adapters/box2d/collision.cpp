@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include "adapters/box2d/shapes.hpp"
+#include "adapters/interface/deepest_first.hpp"
 #include "adapters/interface/input_check.hpp"
 
 namespace rigor::box2d {
@@ -316,8 +317,7 @@ CollisionAnswer Box2dCollisionEngine::collide(const CollisionQuery& query) const
     const std::vector<Side> sidesB = sidesOf(query.b, frame);
     for (const Side& a : sidesOf(query.a, frame))
         for (const Side& b : sidesB) runQuery(a, b, frame, answer);
-    std::stable_sort(answer.contacts.begin(), answer.contacts.end(),
-                     [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
+    adapter::orderDeepestFirst(answer.contacts);
     answer.overlap = !answer.contacts.empty();
     if (answer.overlap) {
         const ContactPoint& deepest = answer.contacts.front();
@@ -325,8 +325,7 @@ CollisionAnswer Box2dCollisionEngine::collide(const CollisionQuery& query) const
         answer.witnessA = deepest.pointA;
         answer.witnessB = deepest.pointB;
     }
-    if (static_cast<int>(answer.contacts.size()) > query.maxContacts)
-        answer.contacts.resize(std::max(query.maxContacts, 0));
+    adapter::keepFirst(answer.contacts, query.maxContacts);
     return answer;
 }
 

@@ -21,6 +21,7 @@
 
 #include "adapters/bullet/convert.hpp"
 #include "adapters/bullet/shapes.hpp"
+#include "adapters/interface/deepest_first.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/planar.hpp"
 
@@ -327,8 +328,7 @@ CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) cons
         pairTest ? finder.findByPairTest(a, b) : finder.find(a, b, settings.polyhedralFeatures);
     if (query.dimension == 2) contacts = projected(contacts, a.surface || b.surface);
     std::erase_if(contacts, [](const ContactPoint& c) { return c.depth < 0.0; });
-    std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
+    adapter::orderDeepestFirst(contacts);
     CollisionAnswer answer;
     answer.overlap = !contacts.empty();
     if (answer.overlap) {
@@ -342,8 +342,7 @@ CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) cons
         answer.witnessA = closest->onA;
         answer.witnessB = closest->onB;
     }
-    if (static_cast<int>(contacts.size()) > query.maxContacts)
-        contacts.resize(std::max(query.maxContacts, 0));
+    adapter::keepFirst(contacts, query.maxContacts);
     answer.contacts = std::move(contacts);
     return answer;
 }

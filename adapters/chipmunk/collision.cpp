@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "adapters/chipmunk/shapes.hpp"
+#include "adapters/interface/deepest_first.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "scenarios/model/surfaces.hpp"
 
@@ -53,11 +54,9 @@ CollisionAnswer ChipmunkCollisionEngine::collide(const CollisionQuery& query) co
                 answer.contacts.push_back(contact);
             }
         }
-    std::stable_sort(answer.contacts.begin(), answer.contacts.end(),
-                     [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
+    adapter::orderDeepestFirst(answer.contacts);
     answer.overlap = !answer.contacts.empty();
-    if (answer.contacts.size() > static_cast<std::size_t>(query.maxContacts))
-        answer.contacts.resize(static_cast<std::size_t>(query.maxContacts));
+    adapter::keepFirst(answer.contacts, query.maxContacts);
     return answer;
 }
 

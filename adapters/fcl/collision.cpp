@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "adapters/fcl/shapes.hpp"
+#include "adapters/interface/deepest_first.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/planar.hpp"
 #include "adapters/interface/surface_points.hpp"
@@ -111,8 +112,7 @@ std::vector<ContactPoint> contactsOf(const fcl::CollisionResultd& result, const 
         contact.pointB = points.onB;
         contacts.push_back(contact);
     }
-    std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
+    adapter::orderDeepestFirst(contacts);
     return contacts;
 }
 
@@ -258,8 +258,7 @@ CollisionAnswer FclCollisionEngine::collide(const CollisionQuery& query) const {
         bringIntoPlane(answer.contacts);
         if (answer.witnessA) answer.witnessA->z = answer.witnessB->z = 0.0;
     }
-    if (answer.contacts.size() > static_cast<std::size_t>(query.maxContacts))
-        answer.contacts.resize(query.maxContacts);
+    adapter::keepFirst(answer.contacts, query.maxContacts);
     return answer;
 }
 

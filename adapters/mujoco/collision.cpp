@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "adapters/interface/deepest_first.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/planar.hpp"
 #include "adapters/interface/surface_points.hpp"
@@ -67,11 +68,9 @@ adapter::CollisionAnswer MujocoCollisionEngine::collide(const adapter::Collision
         point.pointB = onB;
         answer.contacts.push_back(point);
     }
-    std::stable_sort(answer.contacts.begin(), answer.contacts.end(),
-                     [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
+    adapter::orderDeepestFirst(answer.contacts);
     answer.overlap = !answer.contacts.empty();
-    if (answer.contacts.size() > static_cast<std::size_t>(query.maxContacts))
-        answer.contacts.resize(static_cast<std::size_t>(query.maxContacts));
+    adapter::keepFirst(answer.contacts, query.maxContacts);
     return answer;
 }
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <mutex>
 
+#include "adapters/interface/deepest_first.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/timed.hpp"
 #include "adapters/rigor/convert_shape.hpp"
@@ -75,8 +76,7 @@ CollisionAnswer collideIn(const CollisionQuery& query, const engine::NarrowPhase
 
     CollisionAnswer answer;
     std::vector<ContactPoint> points = contactsOf<S>(manifold);
-    std::stable_sort(points.begin(), points.end(),
-                     [](const ContactPoint& x, const ContactPoint& y) { return x.depth > y.depth; });
+    orderDeepestFirst(points);
     if (!points.empty()) {
         answer.overlap = points.front().depth >= 0;
         answer.signedDistance = -points.front().depth;
