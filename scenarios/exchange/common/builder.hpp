@@ -17,6 +17,9 @@
 
 namespace rigor::models {
 
+/// Limits of joints beyond it are none, in formats in which every joint has limits [m, rad].
+constexpr double kUnlimited = 1e6;
+
 /// Contact law of a surface as a file states it.
 struct Surface {
     double friction = 0.0;

@@ -19,7 +19,6 @@ using scenario::JointType;
 using scenario::kNone;
 using scenario::Vec3;
 
-constexpr double kUnlimited = 1e6;       ///< limits beyond it are none
 constexpr double kSameDirection = 1e-9;  ///< largest sine or cosine that counts as zero
 enum Coordinate : std::size_t { kX, kY, kZ, kTwist, kSwingY, kSwingZ };
 

@@ -9,6 +9,7 @@
 #include <regex>
 #include <sdf/sdf.hh>
 
+#include "scenarios/exchange/common/builder.hpp"
 #include "scenarios/exchange/common/files.hpp"
 #include "scenarios/exchange/common/text.hpp"
 #include "scenarios/exchange/geometry/mesh_file.hpp"
@@ -27,7 +28,6 @@ using scenario::Pose;
 using scenario::Vec3;
 using tinyxml2::XMLElement;
 
-constexpr double kUnlimited = 1e6;        ///< limits beyond it are none
 constexpr double kUsualDensity = 1000.0;  ///< default of the format for inertia from shapes [kg/m^3]
 constexpr double kUsualThreshold = 1e5;   ///< default of the format for bounces [m/s]
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 
+#include "scenarios/exchange/common/builder.hpp"
 #include "scenarios/exchange/common/files.hpp"
 #include "scenarios/exchange/common/text.hpp"
 #include "scenarios/exchange/common/xml_file.hpp"
@@ -31,8 +32,6 @@ using scenario::Pose;
 using scenario::Quat;
 using scenario::Vec3;
 using tinyxml2::XMLElement;
-
-constexpr double kUnlimited = 1e6;  ///< limits beyond it are none
 
 /// The library's messages, which it prints instead of throwing.
 class Messages : public console_bridge::OutputHandler {

@@ -21,8 +21,6 @@ using scenario::Pose;
 using scenario::Scenario;
 using scenario::Vec3;
 
-constexpr double kUnlimited = 1e6;  ///< a prismatic joint must have limits: these mean none
-
 bool isLinkJoint(JointType type) {
     return type == JointType::Hinge || type == JointType::Slider || type == JointType::Fixed;
 }
