@@ -14,6 +14,7 @@
 
 #include "cli/command.hpp"
 #include "scenarios/exchange/common/formats.hpp"
+#include "validation/runner/scratch_folder.hpp"
 #include "validation/runner/start_program.hpp"
 
 namespace rigor::cli {
@@ -35,29 +36,9 @@ fs::path readerOf(const models::Format& format) {
                                 "; ./rigor --with models installs them");
 }
 
-/// A folder that goes away with this object.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string pattern = (fs::temp_directory_path() / "rigor-import-XXXXXX").string();
-        if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder can be made");
-        path_ = pattern;
-    }
-    ~TemporaryFolder() {
-        std::error_code error;
-        fs::remove_all(path_, error);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
-
 /// The answer of the reader; a reader that ends in another way is a refusal with its last message.
 models::Answer runReader(const models::Format& format, const models::ReadOptions& options) {
-    const TemporaryFolder folder;
+    const validation::ScratchFolder folder;
     const fs::path answerFile = folder.path() / "answer.json";
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe can be made");
