@@ -149,6 +149,7 @@ class BlockGaussSeidel final : public Solver<S> {
             if (!std::exchange(renewed, true)) input.monitor.before(input.velocities);
             const Residual left = residualOf(input);
             if (left.found <= left.goal) continue;
+            orderBlocks(input);
             if (!isWorthFinishing(input, part, left)) continue;
             const Real reached = finishPart(input, left);
             if (reached < left.found) worst = std::max(worst, reached);
@@ -165,9 +166,12 @@ class BlockGaussSeidel final : public Solver<S> {
             if (hasJoints(input)) continue;
             input.monitor.before(input.velocities, blocks_);
             const Residual left = residualOf(input);
-            if (left.found > left.goal)
-                order_.apply<S>(input.constraints.blocks, input.velocities.size(), blocks_);
-            solved_[part] = left.found <= left.goal || finishPart(input, left) <= left.goal;
+            if (left.found > left.goal) {
+                orderBlocks(input);
+                solved_[part] = finishPart(input, left) <= left.goal;
+            } else {
+                solved_[part] = 1;
+            }
         }
     }
 
@@ -205,10 +209,14 @@ class BlockGaussSeidel final : public Solver<S> {
         return true;
     }
 
-    /// Orders the blocks of a part for elimination. Newton's method takes small parts whatever is left of them, and
-    /// larger ones that sweeps have not solved, but sorted into open, sticking and sliding contacts.
-    bool isWorthFinishing(const SolverInput<S>& input, std::size_t part, const Residual& left) {
+    /// Orders the blocks of a part for elimination.
+    void orderBlocks(const SolverInput<S>& input) {
         order_.apply<S>(input.constraints.blocks, input.velocities.size(), blocks_);
+    }
+
+    /// Newton's method takes small parts whatever is left of them, and larger ones that sweeps have not solved, but
+    /// sorted into open, sticking and sliding contacts.
+    bool isWorthFinishing(const SolverInput<S>& input, std::size_t part, const Residual& left) const {
         std::size_t rows = 0;
         for (const std::uint32_t k : blocks_) rows += input.constraints.blocks[k].rows;
         if (rows <= kSmallRows) return true;
