@@ -175,10 +175,22 @@ void JointSystem<S>::eliminate(const Part& part) {
     const auto size = static_cast<std::size_t>(part.size);
     const auto pad = static_cast<std::size_t>(paddedRows<Real>(part.size));
     Real *const diagonal = diagonal_.data() + part.diagonal, *const x = x_.data() + part.x;
+    Real* const shift = shift_.data() + part.x;
     for (std::size_t k = 0; k < part.last - part.first; ++k)
-        for (std::size_t i = 0; i < size; ++i)
+        for (std::size_t i = 0; i < size; ++i) {
             x[k * pad + i] = shiftPivot(diagonal[(k * size + i) * pad + i]);
+            shift[k * pad + i] = Real(2) * x[k * pad + i];
+        }
     factorPart(kernelPart(part), x);
+    // A pivot of which the shift is a large part belongs to a row that others make redundant.
+    bool redundant = false;
+    for (std::size_t k = 0; k < part.last - part.first; ++k)
+        for (std::size_t i = 0; i < rows_[part.first + k]; ++i) {
+            const Real inverse = diagonal[(k * size + i) * pad + i];  // of the root
+            redundant =
+                redundant || !(inverse > 0) || kMostShift * shift[k * pad + i] * inverse * inverse > 1;
+        }
+    redundant_[static_cast<std::size_t>(&part - parts_.data())] = redundant;
 }
 
 template <class S>
@@ -190,7 +202,19 @@ template <class S>
 void JointSystem<S>::solve(std::size_t p) {
     const Part& part = parts_[p];
     if (part.fronts != kNullIndex) return fronts_[part.fronts].solve(x_.data() + part.x);
-    solvePart(kernelPart(part), x_.data() + part.x);
+    Real* const x = x_.data() + part.x;
+    solvePart(kernelPart(part), x);
+    if (redundant_[p]) dropRedundant(part, numbersOf(p), x);
+}
+
+/// Takes from x the directions that K does not see: (K + D)^-1 K x, D the shifts of the pivots. Right sides of which no
+/// impulse can change a part, as biases of redundant rows that do not agree yet, would leave 1 / epsilon times that part.
+template <class S>
+void JointSystem<S>::dropRedundant(const Part& part, std::size_t n, Real* x) {
+    Real *const shift = shift_.data() + part.x, *const excess = excess_.data() + part.x;
+    for (std::size_t i = 0; i < n; ++i) excess[i] = shift[i] * x[i];
+    solvePart(kernelPart(part), excess);
+    for (std::size_t i = 0; i < n; ++i) x[i] -= excess[i];
 }
 
 template <class S>

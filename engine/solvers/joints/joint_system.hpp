@@ -51,6 +51,8 @@ class JointSystem {
 
   private:
     static constexpr std::size_t kMaxFill = 24;
+    static constexpr Real kMostShift =
+        Real(100);  ///< pivots of redundant rows are less than this times their shift
     static constexpr std::size_t kGrain = 8;  ///< parts: one takes some microseconds
     /// Items, and products of blocks per item, from which dense fronts are faster than blocks.
     static constexpr std::size_t kMinFrontItems = 60, kLongColumns = 24;
@@ -96,6 +98,7 @@ class JointSystem {
                             std::size_t stride);
     static Real shiftPivot(Real& pivot);
     void eliminate(const Part& part);
+    void dropRedundant(const Part& part, std::size_t n, Real* x);
     JointPart<Real> kernelPart(const Part& part);
 
     std::vector<Place> pattern_;
@@ -117,6 +120,8 @@ class JointSystem {
     /// Diagonal blocks of K, then of L, with the reciprocals of its own diagonal.
     std::vector<Real> diagonal_;
     std::vector<Real> x_;
+    std::vector<Real> shift_, excess_;       ///< like x_: shifts of the pivots; shifts times solutions
+    std::vector<std::uint8_t> redundant_;    ///< part -> has redundant rows
     std::vector<JointFronts<Real>> fronts_;  ///< instead of lower_ and diagonal_ where columns are long
 };
 

@@ -106,6 +106,9 @@ void JointSystem<S>::layOut(Elimination& order) {
     lower_.assign(lower, Real(0));
     diagonal_.assign(diagonal, Real(0));
     x_.assign(x, Real(0));
+    shift_.assign(x, Real(0));
+    excess_.assign(x, Real(0));
+    redundant_.assign(parts_.size(), 0);
 }
 
 /// True if the columns of a part are so long that dense fronts are faster than blocks.
