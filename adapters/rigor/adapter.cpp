@@ -18,20 +18,27 @@
 namespace rigor::adapter {
 namespace {
 
-/// Settings of the engine's preset of that name, with the solver's own number of iterations.
-Preset fastPreset() {
-    const auto def = engine::WorldDef<engine::Space3d>::preset("fast");
-    return {"fast",
-            {{"solver", def.solver},
-             {"broad_phase", def.broadPhase},
-             {"substeps", std::to_string(def.substeps)},
-             {"velocity_iterations", std::to_string(def.velocityIterations)},
-             {"contact_frequency", shown(def.contactFrequency)},
-             {"reuse_distance", shown(def.cacheTolerance)},
-             {"box_margin", shown(def.boxMargin)},
-             {"speculative_distance", shown(def.speculativeDistance)},
-             {"speculative_motion", shown(def.speculativeMotion)},
-             {"curved_joints", def.relinearizedJoints ? "on" : "off"}}};
+/// What the engine's preset of that name sets, with its own number of iterations.
+Preset enginePreset(const char* name) {
+    using Def = engine::WorldDef<engine::Space3d>;
+    const Def none, def = Def::preset(name);
+    Preset preset{name,
+                  {{"solver", def.solver},
+                   {"broad_phase", def.broadPhase},
+                   {"integrator", def.integrator},
+                   {"substeps", std::to_string(def.substeps)},
+                   {"velocity_iterations", std::to_string(def.velocityIterations)},
+                   {"curved_joints", def.relinearizedJoints ? "on" : "off"}}};
+    const auto set = [&](const char* key, double Def::*member) {
+        if (def.*member != none.*member) preset.values[key] = shown(def.*member);
+    };
+    set("velocity_tolerance", &Def::velocityTolerance);
+    set("contact_frequency", &Def::contactFrequency);
+    set("reuse_distance", &Def::cacheTolerance);
+    set("box_margin", &Def::boxMargin);
+    set("speculative_distance", &Def::speculativeDistance);
+    set("speculative_motion", &Def::speculativeMotion);
+    return preset;
 }
 
 /// Settings of `matched` that differ from `default`.
@@ -87,7 +94,7 @@ class RigorEngine final : public EngineWithPresets {
             choice("precision", {"f32", "f64"}, "f64", "f64", "number type of state and computation"));
         return options;
     }
-    std::vector<Preset> presets() const override { return {fastPreset()}; }
+    std::vector<Preset> presets() const override { return {enginePreset("accurate"), enginePreset("fast")}; }
     const DynamicsEngine* dynamics() const override { return dynamics_.get(); }
     const CollisionEngine* collision() const override { return collision_.get(); }
     const BroadPhaseEngine* broadPhase() const override { return broadPhase_.get(); }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The preset `fast` is the matched one with what engine::preferSpeed sets, and the solver's own number of
-// iterations; the engine's README names it.
+// The presets `fast` and `accurate` are the matched one with what engine::preferSpeed and engine::preferAccuracy set;
+// the engine's README names them.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -10,6 +10,7 @@
 #include <string>
 
 #include "adapters/interface/registry.hpp"
+#include "engine/state/prefer_accuracy.hpp"
 #include "engine/state/prefer_speed.hpp"
 
 namespace rigor::adapter {
@@ -37,11 +38,29 @@ TEST(FastPreset, IsTheMatchedOneWithWhatPreferSpeedSets) {
     EXPECT_EQ(changed, 9) << "no more than the nine compared above";
 }
 
-TEST(FastPreset, IsNamedInTheReadme) {
+TEST(AccuratePreset, IsTheMatchedOneWithWhatPreferAccuracySets) {
+    engine::WorldDef<engine::Space3d> wanted;
+    engine::preferAccuracy(wanted);
+    const LoadedEngine engine(RIGOR_MODULE);
+    const Settings accurate = resolveSettings(parseSpec("rigor:preset=accurate"), *engine);
+    EXPECT_EQ(textSetting(accurate, "integrator"), wanted.integrator);
+    EXPECT_EQ(textSetting(accurate, "solver"), wanted.solver);
+    EXPECT_EQ(integerSetting(accurate, "velocity_iterations"), wanted.velocityIterations);
+    EXPECT_EQ(numberSetting(accurate, "velocity_tolerance"), wanted.velocityTolerance);
+
+    Settings others = resolveSettings(parseSpec("rigor:preset=matched"), *engine);
+    int changed = 0;
+    for (auto& [key, value] : others)
+        if (key != "preset" && value != accurate.at(key)) ++changed;
+    EXPECT_EQ(changed, 4) << "no more than the four compared above";
+}
+
+TEST(EnginePresets, AreNamedInTheReadme) {
     std::ifstream file(RIGOR_SOURCE_DIR "/engine/README.md");
     std::stringstream text;
     text << file.rdbuf();
-    EXPECT_NE(text.str().find("`rigor:preset=fast`"), std::string::npos);
+    for (const char* name : {"`rigor:preset=fast`", "`rigor:preset=accurate`"})
+        EXPECT_NE(text.str().find(name), std::string::npos) << name;
 }
 
 }  // namespace
