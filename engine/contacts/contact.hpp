@@ -71,6 +71,8 @@ struct alignas(64) Contact {
     /// Angular impulses of rolling and torsional friction on B, of all points [N m s], world axes: of the last
     /// (sub-)step, and its sum over the last step.
     typename S::Ang moment = zeroAng<S>(), momentTotal = zeroAng<S>();
+    /// Normal of the rows of the last step if it led from midpoint to midpoint (row_lag.hpp), else 0.
+    Vec lastNormal = Vec::Zero();
 };
 
 /// Point at which the impulse of a contact point acts: the same for both bodies, otherwise opposite impulses

@@ -38,6 +38,7 @@ struct ContactStep {
     typename S::Real warmStart;             ///< factor on the last impulses; 0: none
     bool bounces = true;                    ///< false: restitution is off
     bool meanSlip = false;                  ///< friction opposes the mean slip of the step (updateSlips)
+    bool rowsLag = false;                   ///< the rows are those of the step's middle (row_lag.hpp)
     IslandSize islands = IslandSize::Usual;  ///< the model is for the contacts of these islands
 };
 

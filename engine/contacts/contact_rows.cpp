@@ -22,6 +22,7 @@
 #include <limits>
 
 #include "engine/contacts/moment_rows.hpp"
+#include "engine/contacts/row_lag.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -97,13 +98,34 @@ bool preparePoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Conta
     return false;
 }
 
-/// Decides which points get rows.
+template <class S>
+PointFrame<S> frameOf(const typename Contact<S>::Point& point, const typename S::Vec& normal) {
+    return {point.rA, point.rB, normal};
+}
+
+/// Places the points of a contact, and finds what the rows of those that it had in the last step lag by.
+template <class S>
+void placeWithLags(const BodyArrays<S>& bodies, Contact<S>& contact, RowLags<S>& lags) {
+    const auto last = contact.points;
+    placePoints(bodies, contact);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+        lags[i] = rowLag<S>(frameOf<S>(last[i], contact.lastNormal),
+                            frameOf<S>(contact.points[i], contact.manifold.normal), bodies, contact);
+}
+
+/// Decides which points get rows. `lags`: none in steps whose rows are not those of a midpoint.
 template <class S>
 void prepareRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, bool stepBegins,
-                 Contact<S>& contact) {
+                 Contact<S>& contact, RowLags<S>* lags) {
     contact.asleep = isAsleep(bodies, contact);
     contact.blocks = 0;
-    if (!contact.placed) placePoints(bodies, contact);
+    if (!contact.placed) {
+        if (lags != nullptr && !contact.lastNormal.isZero(0))
+            placeWithLags(bodies, contact, *lags);
+        else
+            placePoints(bodies, contact);
+    }
+    if (lags != nullptr) contact.lastNormal = contact.manifold.normal;
     if (stepBegins && !contact.asleep) {
         contact.totals.fill({});
         if (contact.coefficients.hasMoments()) contact.momentTotal = zeroAng<S>();
@@ -169,7 +191,7 @@ void makePointMoments(const BodyArrays<S>& bodies, const ContactStep<S>& step, c
 /// Fills a contact block, but for its first row, and its rows.
 template <class S>
 void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
-                   std::size_t index, Block<S>& block, Row<S>* rows) {
+                   std::size_t index, const RowLag<S>& lag, Block<S>& block, Row<S>* rows) {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
     const typename Contact<S>::Point& point = contact.points[index];
@@ -191,7 +213,7 @@ void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, cons
     };
     Row<S>& normal = rows[0];
     normal = makeRow(n);
-    normal.error = point.separation;
+    normal.error = point.separation + step.h * lag.normal;
     const Real restitution = step.bounces ? contact.coefficients.restitution : Real(0);
     const bool bounces = restitution > 0 && point.approach < -step.restitutionThreshold;
     // A bounce that is still ahead is continuous collision's.
@@ -202,6 +224,10 @@ void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, cons
         normal.bias = point.separation / step.h;
     normal.relaxedBias = normal.bias;
     if (normal.bias == 0) setPenetrationBias(step, block, point.separation, normal);
+    if (lag.normal != 0 && block.restitution == 0) {
+        normal.bias += lag.normal;
+        normal.relaxedBias += lag.normal;
+    }
     normal.impulse = step.warmStart * contact.impulses[index].normal;
     if (block.rows == 1) return;
 
@@ -210,6 +236,10 @@ void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, cons
         rows[1 + i] = makeRow(basis[i]);
         rows[1 + i].impulse = step.warmStart * basis[i].dot(contact.impulses[index].friction);
         if (contact.driven) driveRow(contact, rows[1 + i]);
+        const Real slip = lag.slip.dot(basis[i]);
+        if (slip == 0) continue;
+        rows[1 + i].bias += slip;
+        rows[1 + i].relaxedBias += slip;
     }
     const Row<S>* t = rows + 1;
     block.k11 = rowCoupling<S>(t[0], t[0], block);
@@ -249,8 +279,11 @@ void RowContacts<S>::prepare(ContactList<S>&, const BodyArrays<S>&, const Contac
 template <class S>
 void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodies, const ContactStep<S>& step,
                                   ConstraintRows<S>& rows, const Tasks& tasks) {
+    lags_.assign(step.rowsLag ? contacts.size() : 0, {});
+    const RowLags<S> none{};
     tasks.forEach(contacts.size(), kRowGrain, [&](std::size_t k) {
-        if (contacts[k].islands == islands_) prepareRows<S>(bodies, step, stepBegins_, contacts[k]);
+        if (contacts[k].islands == islands_)
+            prepareRows<S>(bodies, step, stepBegins_, contacts[k], lags_.empty() ? nullptr : &lags_[k]);
     });
     std::size_t firstRow = rows.rows.size(), firstBlock = rows.blocks.size(), points = 0;
     for (Contact<S>& contact : contacts) {
@@ -276,35 +309,43 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
             if (contact.block[i] == kNullIndex) continue;
             Block<S>& block = rows.blocks[contact.block[i]];
             block.first = row;
-            makePointRows<S>(bodies, step, contact, i, block, rows.rows.data() + row);
+            const RowLag<S>& lag = (lags_.empty() ? none : lags_[k])[i];
+            makePointRows<S>(bodies, step, contact, i, lag, block, rows.rows.data() + row);
             if (contact.coefficients.hasMoments())
                 makePointMoments<S>(bodies, step, contact, i, &block, rows.rows.data() + row + block.rows);
             row += static_cast<std::uint32_t>(rowsPerPoint(contact));
         }
     });
-    findSlips(bodies, step, rows);
+    findSlips(contacts, bodies, step, rows);
 }
 
 /// Slips that forces make and unmake within a step are left out: contacts that stick. In 2D all slips of a
 /// contact have one direction.
 template <class S>
-void RowContacts<S>::findSlips(const BodyArrays<S>& bodies, const ContactStep<S>& step,
-                               const ConstraintRows<S>& rows) {
+void RowContacts<S>::findSlips(const ContactList<S>& contacts, const BodyArrays<S>& bodies,
+                               const ContactStep<S>& step, const ConstraintRows<S>& rows) {
     slips_.clear();
     if (S::dim == 2 || !step.meanSlip) return;
     const Real slowest = Real(0.05) * step.restingGap / step.h;
-    for (std::uint32_t k = 0; k < rows.blocks.size(); ++k) {
-        const Block<S>& block = rows.blocks[k];
-        if (block.kind != BlockKind::Contact || block.rows < 2) continue;
-        Slip slip{k, {}, {}};
-        for (std::size_t i = 0; i < slip.before.size(); ++i) {
-            const Row<S>& row = rows.rows[block.first + 1 + i];
-            slip.surface[i] = row.bias;
-            slip.before[i] = rowVelocity<S>(row, bodies.velocity[block.a], bodies.velocity[block.b]);
-            if (row.bias != 0) slip.before[i] += row.bias;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        const Contact<S>& contact = contacts[k];
+        for (std::size_t i = 0; contact.blocks > 0 && contact.islands == islands_ && i < contact.block.size();
+             ++i) {
+            if (contact.block[i] == kNullIndex) continue;
+            const Block<S>& block = rows.blocks[contact.block[i]];
+            if (block.rows < 2) continue;
+            Slip slip{contact.block[i], {}, {}};
+            const auto basis = tangentBasis<S>(contact.manifold.normal);
+            for (std::size_t t = 0; t < slip.before.size(); ++t) {
+                const Row<S>& row = rows.rows[block.first + 1 + t];
+                slip.surface[t] = row.bias;
+                slip.before[t] = rowVelocity<S>(row, bodies.velocity[block.a], bodies.velocity[block.b]);
+                if (row.bias != 0) slip.before[t] += row.bias;
+                if (step.rowsLag) slip.before[t] -= Real(2) * lags_[k][i].slip.dot(basis[t]);
+            }
+            const Real first = slip.before.front(), second = slip.before.back();
+            if (first * first + second * second > slowest * slowest) slips_.push_back(slip);
         }
-        const Real first = slip.before.front(), second = slip.before.back();
-        if (first * first + second * second > slowest * slowest) slips_.push_back(slip);
     }
 }
 

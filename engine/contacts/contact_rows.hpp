@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/contacts/contact_model.hpp"
+#include "engine/contacts/row_lag.hpp"
 
 namespace rigor::engine {
 
@@ -34,7 +35,8 @@ class RowContacts final : public ContactModel<S> {
     ContactCounts counts() const override { return counts_; }
 
   private:
-    void findSlips(const BodyArrays<S>& bodies, const ContactStep<S>& step, const ConstraintRows<S>& rows);
+    void findSlips(const ContactList<S>& contacts, const BodyArrays<S>& bodies, const ContactStep<S>& step,
+                   const ConstraintRows<S>& rows);
 
     ContactCounts counts_;
     IslandSize islands_ = IslandSize::Usual;
@@ -44,8 +46,9 @@ class RowContacts final : public ContactModel<S> {
         std::array<Real, S::tangents> before{};   ///< along its tangents [m/s]
         std::array<Real, S::tangents> surface{};  ///< velocity of the surfaces over the bodies [m/s]
     };
-    std::vector<Slip> slips_;  ///< points where friction opposes the mean slip
-    bool stepBegins_ = false;  ///< the next sub-step is the first of its step
+    std::vector<RowLags<S>> lags_;  ///< by contact; empty where rows are not those of a midpoint
+    std::vector<Slip> slips_;       ///< points where friction opposes the mean slip
+    bool stepBegins_ = false;       ///< the next sub-step is the first of its step
 };
 
 /// Unit tangents that with n form a right-handed orthonormal frame; a function of n alone.

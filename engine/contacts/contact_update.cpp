@@ -31,19 +31,27 @@ void clearStep(Contact<S>& contact) {
 }
 
 /// Matches points by feature. A point with a new feature (the reference face has changed to the other body)
-/// takes the impulses of the nearest unmatched point, if that is near compared with its arm.
+/// takes the impulses and the arms of the nearest unmatched point, if that is near compared with its arm.
 template <class S>
 void matchPoints(const BodyArrays<S>& bodies, const OldPoints<S>& old, Contact<S>& contact) {
     using Real = typename S::Real;
+    using Vec = typename S::Vec;
     const auto impulses = contact.impulses;
+    const auto points = contact.points;
+    const auto setArms = [](auto& point, const Vec& rA, const Vec& rB) {
+        point.rA = rA;
+        point.rB = rB;
+    };
     std::array<bool, S::maxManifoldPoints> used{}, done{};
     const auto take = [&](std::size_t from, std::size_t to) {
         used[from] = done[to] = true;
         contact.impulses[to] = impulses[from];
+        if (!contact.placed) setArms(contact.points[to], points[from].rA, points[from].rB);
     };
     const auto n = static_cast<std::size_t>(contact.manifold.count);
     for (std::size_t i = 0; i < n; ++i) {
         contact.impulses[i] = {};
+        if (!contact.placed) setArms(contact.points[i], Vec::Zero(), Vec::Zero());
         for (std::size_t j = 0; j < old.count && !done[i]; ++j)
             if (!used[j] && contact.manifold.points[i].feature == old.feature[j]) take(j, i);
     }

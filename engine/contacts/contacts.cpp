@@ -86,6 +86,7 @@ void Contacts<S>::bodyMoved(std::uint32_t from, std::uint32_t to) {
         contact.cache = {};
         contact.moment = -contact.moment;
         contact.momentTotal = -contact.momentTotal;
+        contact.lastNormal = -contact.lastNormal;
         contact.placed = false;
         for (std::size_t i = 0; i < contact.impulses.size(); ++i) {
             contact.impulses[i].friction = -contact.impulses[i].friction;

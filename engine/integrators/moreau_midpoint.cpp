@@ -25,6 +25,8 @@
 // leaves, as a joint's curvature, and not closing it would lift a body that turns about an edge. Contacts are
 // found as far ahead as bodies move in a step, so that those that others hold reach a midpoint without overlap.
 //
+// J(q_M) is half a step older than v_1. Where contacts turn, their rows hold for J(q_1), extrapolated (contacts/row_lag.hpp).
+//
 // Forces that depend on the velocity are evaluated twice, the second time with v_0 + h/2 a(q_M, v_0): order 2
 // where nothing but forces acts. What impulses change of the velocity within the step they do not see.
 #include "engine/integrators/integrator.hpp"

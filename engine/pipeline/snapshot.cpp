@@ -19,7 +19,7 @@ namespace rigor::engine {
 namespace {
 
 constexpr char kMagic[8] = {'R', 'I', 'G', 'O', 'R', 'S', 'N', 'P'};
-constexpr std::uint32_t kVersion = 9;  ///< raised with every change of state_fields.def
+constexpr std::uint32_t kVersion = 10;  ///< raised with every change of state_fields.def
 constexpr std::uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -55,6 +55,10 @@ void visitContact(A& archive, C& contact) {
     }
     if (!std::is_same_v<A, HashArchive> || contact.vetoed) {
 #define VETO_FIELD(member) visitValue(archive, contact.member);
+#include "engine/state/state_fields.def"
+    }
+    if (!std::is_same_v<A, HashArchive> || !contact.lastNormal.isZero(0)) {
+#define LAST_FIELD(member) visitValue(archive, contact.member);
 #include "engine/state/state_fields.def"
     }
     const int count = contact.manifold.count;

@@ -110,6 +110,7 @@ void Step<S>::findManifolds() {
     world_.islands.changed();
     if (algorithms_.sleeping.wake) algorithms_.sleeping.wake(sleepStep());
     if (algorithms_.large) sortIslands();
+    if (rowsLag()) findFirstFrames();
 }
 
 template <class S>
@@ -143,6 +144,12 @@ void Step<S>::makeRows() {
     if (algorithms_.restitution->solvesImpacts()) solveImpacts();
 }
 
+/// Of sub-steps none but the first has the rows of a midpoint that follows one of the step before.
+template <class S>
+bool Step<S>::rowsLag() const {
+    return motion_.isAtMidpoint() && !method_.style.positions && method_.substeps == 1;
+}
+
 template <class S>
 ContactStep<S> Step<S>::contactStep() const {
     const Real h = state_.substepSize;
@@ -158,6 +165,7 @@ ContactStep<S> Step<S>::contactStep() const {
             def_.warmStarting && state_.lastSubstepSize > 0 ? h / state_.lastSubstepSize : Real(0),
             algorithms_.restitution->bounces(),
             motion_.isAtMidpoint() && !method_.style.positions,
+            rowsLag(),
             state_.islands};
 }
 

@@ -47,6 +47,7 @@ struct StepState {
     ConstraintRows<S> noContacts;         ///< always empty
     std::vector<Velocity<S>> still, way;  ///< zero; velocities of each body in the last sub-step
     std::vector<Lead<S>> leads;  ///< ways to the midpoints; integrators that have none leave them as they are
+    std::vector<std::uint8_t> renewed;  ///< bodies whose midpoints were found anew in this step
     FlightImpacts<S> flights;
     std::vector<std::uint8_t> bound;  ///< bodies that joints hold or forces act on
     // --- what the result refers to
@@ -127,8 +128,11 @@ class Step {
     void putJointsRight();
     void showContacts();
     void showGap(Contact<S>& contact) const;
+    void findRenewed(bool same);
+    void findFirstFrames();
     void beginFlights();
     void endFlights();
+    bool rowsLag() const;
     ContactStep<S> contactStep() const;
     BiasRule<Real> biasRule() const;
     void solveVelocities(int iterations, bool warmStarted);

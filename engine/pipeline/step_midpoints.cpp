@@ -91,7 +91,9 @@ void Step<S>::toMidpoints() {
     for (std::size_t i = 0; i < bodies_.size(); ++i) state_.leads[i].start = bodies_.pose[i];
     const PerIslandSize<Real> half{halfOf(IslandSize::Usual),
                                    algorithms_.large ? halfOf(IslandSize::Large) : Real(0)};
-    if (motion_.toMidpoint(bodies_, half, world_.clock.lastSubstepSize == h, tasks_)) {
+    const bool same = world_.clock.lastSubstepSize == h;
+    findRenewed(same);
+    if (motion_.toMidpoint(bodies_, half, same, tasks_)) {
         contacts_.keepSides(bodies_, tasks_);
         putJointsRight();
     }

@@ -22,8 +22,10 @@ StepPositions<S>::StepPositions(BodyArrays<S>& bodies, const JointSet<S>& joints
     for (std::uint32_t i = 0; i < rows.blocks.size(); ++i) {
         const Block<S>& block = rows.blocks[i];
         if (block.kind != BlockKind::Contact) continue;
-        const Real speed =
-            rowVelocity<S>(rows.rows[block.first], bodies.velocity[block.a], bodies.velocity[block.b]);
+        const Row<S>& normal = rows.rows[block.first];
+        Real speed = rowVelocity<S>(normal, bodies.velocity[block.a], bodies.velocity[block.b]);
+        // A curve lifts the body by as much as its row lags (contacts/row_lag.hpp): it does not separate.
+        if (block.restitution == 0 && normal.bias < 0) speed += normal.bias;
         if (speed <= separating) scratch.contacts.push_back(i);
     }
 }

@@ -6,67 +6,21 @@
 // measured beside it: the fits distinguish one from the other.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <vector>
 
+#include "engine/pipeline/tests/order_fit.hpp"
 #include "engine/pipeline/tests/scene.hpp"
 
 namespace rigor::engine::test {
 namespace {
 
-/// Slope of ln error against ln h by least squares.
-double fittedOrder(const std::vector<double>& h, const std::vector<double>& error) {
-    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-    for (std::size_t i = 0; i < h.size(); ++i) {
-        const double lx = std::log(h[i]), ly = std::log(error[i]);
-        n += 1;
-        x += lx;
-        y += ly;
-        xx += lx * lx;
-        xy += lx * ly;
-    }
-    return (n * xy - x * y) / (n * xx - x * x);
-}
-
-/// State of a scene at `time` after `steps` equal steps.
-using RunOf = std::function<Eigen::VectorXd(const std::string& integrator, int steps)>;
-
-double orderAgainst(const RunOf& stateOf, const char* integrator, double time, const Eigen::VectorXd& exact,
-                    const std::vector<int>& steps) {
-    std::vector<double> h, error;
-    for (const int n : steps) {
-        h.push_back(time / n);
-        error.push_back((stateOf(integrator, n) - exact).norm());
-    }
-    return fittedOrder(h, error);
-}
-/// The order that the differences of runs with n and 2 n steps have.
-double orderBetweenRuns(const RunOf& stateOf, const char* integrator, double time,
-                        const std::vector<int>& steps) {
-    std::vector<double> h, error;
-    for (const int n : steps) {
-        h.push_back(time / n);
-        error.push_back((stateOf(integrator, n) - stateOf(integrator, 2 * n)).norm());
-    }
-    return fittedOrder(h, error);
-}
-
 template <class S>
 class SecondOrder : public testing::Test {};
 using SecondOrderSpaces = testing::Types<Space2d, Space3d>;
 TYPED_TEST_SUITE(SecondOrder, SecondOrderSpaces);
-
-template <class S>
-WorldDef<S> earthWith(const std::string& integrator) {
-    WorldDef<S> def = earth<S>();
-    def.integrator = integrator;
-    return def;
-}
-template <class S>
-void runSteps(World<S>& world, double time, int steps) {
-    for (int i = 0; i < steps; ++i) world.step(time / steps);
-}
 
 /// Position and velocity of a block that slides to rest, v0 / (mu g) = 0.886 s.
 TYPED_TEST(SecondOrder, ABlockSlidesToRest) {
@@ -437,6 +391,45 @@ TEST(SecondOrderInSpace, ATopTurnsOnItsTip) {
     };
     EXPECT_NEAR(orderBetweenRuns(state, "moreau_midpoint", 0.5, {480, 960, 1920}), 2, 0.1);
     EXPECT_NEAR(orderBetweenRuns(state, "symplectic_euler", 0.5, {960, 1920}), 1, 0.2);
+}
+
+/// The loop of Bricard: five bars and six hinges, one equation of which follows from the others.
+TEST(SecondOrderInSpace, ALoopOfHingesWithARedundantRow) {
+    using S = Space3d;
+    using Vec = Eigen::Vector3d;
+    const auto state = [](const std::string& integrator, int steps) {
+        World<S> world(earthWith<S>(integrator));
+        const std::array<Vec, 6> corner{Vec(0, 0, 0),  Vec(1, 0, 0),  Vec(1, -1, 0),
+                                        Vec(1, -1, 1), Vec(0, -1, 1), Vec(0, 0, 1)};
+        const std::array<Vec, 6> axis{Vec::UnitY(), Vec::UnitZ(), Vec::UnitX(),
+                                      Vec::UnitY(), Vec::UnitZ(), Vec::UnitX()};
+        std::array<BodyId, 5> bars;
+        for (std::size_t i = 0; i < bars.size(); ++i) {
+            BodyDef<S> def;
+            const Vec along = corner[i + 1] - corner[i];
+            def.pose.p = 0.5 * (corner[i] + corner[i + 1]);
+            def.mass = 1;
+            def.inertia = Vec(Vec::Constant(1.0 / 12) - along.cwiseAbs() * (1.0 / 12 - 1e-3)).asDiagonal();
+            bars[i] = world.addBody(def);
+        }
+        for (std::size_t i = 0; i < corner.size(); ++i) {
+            JointDef<S> hinge;
+            hinge.type = JointType::Hinge;
+            if (i > 0 && i < 5) hinge.bodyA = bars[i - 1];
+            hinge.bodyB = bars[std::min<std::size_t>(i, 4)];
+            const Vec a = i > 0 && i < 5 ? world.pose(hinge.bodyA).p : Vec(0, 0, 0);
+            hinge.anchorA = corner[i] - a;
+            hinge.anchorB = corner[i] - world.pose(hinge.bodyB).p;
+            hinge.axisA = hinge.axisB = axis[i];
+            world.addJoint(hinge);
+        }
+        runSteps(world, 1.0, steps);
+        Eigen::VectorXd all(6);
+        all << world.pose(bars[2]).p, world.velocity(bars[2]);
+        return all;
+    };
+    EXPECT_NEAR(orderBetweenRuns(state, "moreau_midpoint", 1.0, {120, 240, 480}), 2, 0.1);
+    EXPECT_LT((state("moreau_midpoint", 120) - state("moreau_midpoint", 480)).norm(), 0.03);
 }
 
 /// A body of three moments of inertia that falls on an edge of its capsule and bounces off, twice.
