@@ -39,7 +39,15 @@ struct ContactStep {
     bool bounces = true;                    ///< false: restitution is off
     bool meanSlip = false;                  ///< friction opposes the mean slip of the step (updateSlips)
     bool rowsLag = false;                   ///< the rows are those of the step's middle (row_lag.hpp)
-    IslandSize islands = IslandSize::Usual;  ///< the model is for the contacts of these islands
+    IslandSize islands = IslandSize::Usual;      ///< the model is for the contacts of these islands
+    std::span<const std::uint8_t> mayLand = {};  ///< bodies that land at their own times; empty: none
+};
+
+/// A point of which the gap closes within the step, and whose row has the law of impact.
+template <class Real>
+struct LandingPoint {
+    std::uint32_t block;
+    Real time;  ///< fraction of the step until it closes
 };
 
 /// Numbers of points and rows that a model has passed to the solver in the last sub-step.
@@ -85,6 +93,9 @@ class ContactModel {
     /// rolling spheres.
     virtual void advance(ContactList<S>& contacts, std::span<const Velocity<S>> velocities, Real h,
                          const Tasks& tasks) = 0;
+
+    /// The landings of the sub-step, in the order of contacts.
+    virtual std::span<const LandingPoint<Real>> landings() const { return {}; }
 
     virtual ContactCounts counts() const = 0;
     /// Later sub-steps need the bodies' world inertia of the first.

@@ -188,6 +188,20 @@ void makePointMoments(const BodyArrays<S>& bodies, const ContactStep<S>& step, c
         }
 }
 
+/// Fraction of the step in which the gap of a point closes that lands in it at its own time; 0: none.
+template <class S>
+typename S::Real landingTime(const BodyArrays<S>& bodies, const ContactStep<S>& step,
+                             const Contact<S>& contact, const typename Contact<S>::Point& point,
+                             const RowLag<S>& lag) {
+    using Real = typename S::Real;
+    if (step.mayLand.empty() || point.separation <= kTouching<Real> || contact.speculative) return 0;
+    if (step.bounces && contact.coefficients.restitution > 0) return 0;
+    const std::uint32_t body = bodies.invMass[contact.bodyA] > 0 ? contact.bodyA : contact.bodyB;
+    const Real closes = -step.h * (point.approach + lag.normal);
+    if (!step.mayLand[body] || closes < Real(0.25) * step.restingGap || point.separation >= closes) return 0;
+    return point.separation / closes;
+}
+
 /// Fills a contact block, but for its first row, and its rows.
 template <class S>
 void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
@@ -220,6 +234,8 @@ void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, cons
     block.restitution = bounces && point.rebound == 0 ? restitution : Real(0);
     if (bounces && point.rebound == 0)
         normal.bias = restitution * point.approach;
+    else if (landingTime<S>(bodies, step, contact, point, lag) > 0)
+        normal.bias = 0;
     else if (point.separation > (point.impact ? Real(0) : step.gapSlop))
         normal.bias = point.separation / step.h;
     normal.relaxedBias = normal.bias;
@@ -317,6 +333,7 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
         }
     });
     findSlips(contacts, bodies, step, rows);
+    findLandings(contacts, bodies, step);
 }
 
 /// Slips that forces make and unmake within a step are left out: contacts that stick. In 2D all slips of a
@@ -345,6 +362,22 @@ void RowContacts<S>::findSlips(const ContactList<S>& contacts, const BodyArrays<
             }
             const Real first = slip.before.front(), second = slip.before.back();
             if (first * first + second * second > slowest * slowest) slips_.push_back(slip);
+        }
+    }
+}
+
+template <class S>
+void RowContacts<S>::findLandings(const ContactList<S>& contacts, const BodyArrays<S>& bodies,
+                                  const ContactStep<S>& step) {
+    landings_.clear();
+    if (step.mayLand.empty() || lags_.empty()) return;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        const Contact<S>& contact = contacts[k];
+        if (contact.islands != islands_ || contact.blocks == 0) continue;
+        for (std::size_t i = 0; i < contact.block.size(); ++i) {
+            if (contact.block[i] == kNullIndex) continue;
+            const Real time = landingTime<S>(bodies, step, contact, contact.points[i], lags_[k][i]);
+            if (time > 0) landings_.push_back({contact.block[i], time});
         }
     }
 }

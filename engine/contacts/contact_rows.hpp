@@ -32,11 +32,15 @@ class RowContacts final : public ContactModel<S> {
                const Tasks& tasks) override;
     void advance(ContactList<S>& contacts, std::span<const Velocity<S>> velocities, Real h,
                  const Tasks& tasks) override;
+    std::span<const LandingPoint<Real>> landings() const override { return landings_; }
     ContactCounts counts() const override { return counts_; }
 
   private:
     void findSlips(const ContactList<S>& contacts, const BodyArrays<S>& bodies, const ContactStep<S>& step,
                    const ConstraintRows<S>& rows);
+
+    void findLandings(const ContactList<S>& contacts, const BodyArrays<S>& bodies,
+                      const ContactStep<S>& step);
 
     ContactCounts counts_;
     IslandSize islands_ = IslandSize::Usual;
@@ -47,8 +51,9 @@ class RowContacts final : public ContactModel<S> {
         std::array<Real, S::tangents> surface{};  ///< velocity of the surfaces over the bodies [m/s]
     };
     std::vector<RowLags<S>> lags_;  ///< by contact; empty where rows are not those of a midpoint
-    std::vector<Slip> slips_;       ///< points where friction opposes the mean slip
-    bool stepBegins_ = false;       ///< the next sub-step is the first of its step
+    std::vector<LandingPoint<Real>> landings_;
+    std::vector<Slip> slips_;  ///< points where friction opposes the mean slip
+    bool stepBegins_ = false;  ///< the next sub-step is the first of its step
 };
 
 /// Unit tangents that with n form a right-handed orthonormal frame; a function of n alone.

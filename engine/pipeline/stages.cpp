@@ -139,6 +139,7 @@ void Step<S>::makeRows() {
                         begins};
     joints_.addRows(bodies_, state_.jointStep, rows_, tasks_);
     state_.jointRows = rows_.rows.size();
+    if (motion_.isAtMidpoint()) findLandingBodies();
     if (begins) contactModel_.prepare(contacts_.list(), bodies_, step, tasks_);
     contactModel_.beginSubstep(contacts_.list(), bodies_, step, rows_, tasks_);
     if (algorithms_.restitution->solvesImpacts()) solveImpacts();
@@ -166,7 +167,8 @@ ContactStep<S> Step<S>::contactStep() const {
             algorithms_.restitution->bounces(),
             motion_.isAtMidpoint() && !method_.style.positions,
             rowsLag(),
-            state_.islands};
+            state_.islands,
+            state_.mayLand};
 }
 
 template <class S>
@@ -210,6 +212,7 @@ void Step<S>::kick() {
 
 template <class S>
 void Step<S>::solve() {
+    if (motion_.isAtMidpoint()) beginLandings();
     // A first step has no impulses to start from.
     const bool fromNothing = world_.clock.steps == 0 && state_.substep == 0 && !method_.style.iterations;
     const int usual = method_.velocityIterations;
@@ -248,6 +251,7 @@ void Step<S>::solveVelocities(int iterations, bool warmStarted) {
 template <class S>
 void Step<S>::move() {
     motion_.move(bodies_, state_.substepSize, tasks_);
+    if (motion_.isAtMidpoint()) placeLandings();
 }
 
 template <class S>

@@ -23,6 +23,15 @@ struct Lead {
     Velocity<S> motion;  ///< translation [m], rotation vector [rad]
 };
 
+/// A body that others hold has landed within the step (step_landings.cpp).
+template <class S>
+struct Landing {
+    std::uint32_t body;
+    typename S::Real time;    ///< fraction of the step before it: the mean of its points
+    typename S::Real points;  ///< number of the points that land
+    Velocity<S> change;       ///< velocity before the step minus that after it
+};
+
 /// Data that a step keeps from stage to stage. None of it decides the future of a world between steps.
 template <class S>
 struct StepState {
@@ -49,7 +58,11 @@ struct StepState {
     std::vector<Lead<S>> leads;  ///< ways to the midpoints; integrators that have none leave them as they are
     std::vector<std::uint8_t> renewed;  ///< bodies whose midpoints were found anew in this step
     FlightImpacts<S> flights;
-    std::vector<std::uint8_t> bound;  ///< bodies that joints hold or forces act on
+    std::vector<std::uint8_t> mayLand;  ///< bodies whose landings are impacts at their own time
+    std::vector<Velocity<S>> before;    ///< velocities before the forces of the step
+    std::vector<Landing<S>> landings;
+    std::vector<std::pair<std::uint32_t, Real>> held;  ///< rows and impulses that act before landings
+    std::vector<std::uint8_t> bound;                   ///< bodies that joints hold or forces act on
     // --- what the result refers to
     std::vector<Real> residuals;
     std::vector<ImpactEvent<S>> impacts;
@@ -130,6 +143,10 @@ class Step {
     void showGap(Contact<S>& contact) const;
     void findRenewed(bool same);
     void findFirstFrames();
+    void findLandingBodies();
+    void beginLandings();
+    void placeLandings();
+    void shortenLandings();
     void beginFlights();
     void endFlights();
     bool rowsLag() const;

@@ -172,6 +172,7 @@ void Step<S>::moveContact(Contact<S>& contact, const typename S::Vec& pA, const 
 template <class S>
 void Step<S>::toEnd() {
     if (state_.anyUsual) releaseBroken();
+    shortenLandings();
     const Real h = state_.substepSize;
     std::span<const Velocity<S>> way = motion_.used();
     if (method_.style.positions) {

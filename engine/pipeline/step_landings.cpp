@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Impacts within a step of bodies that others hold, where steps lead from midpoint to midpoint: a block that rocks lands on
+// one edge while it turns about another. A row that closes the gap s by the end of the step, J v_1 >= -s / h, would slow the
+// body in one step and stop it in the next: two blows of which neither is the impact. Instead
+//     tau = s / (-h J v_0)                          fraction of the way between the midpoints until the gap is closed
+//     v = v_0 + h M^-1 f + M^-1 J^T (1/2 + tau) p   p the last impulses of what holds the body until it lands
+//     J v_1 >= 0                                    the law of impact for all its contacts, from v on
+//     q_M1 = q_M + h (tau v_0 + (1 - tau) v_1)
+// v_0 is that of the beginning of the step, half a step before q_M.
+// For bodies that touch none but bodies that take no impulses: what else hangs on them would have to move as well. Bodies
+// that nothing holds have flight_impacts.hpp.
+#include <algorithm>
+
+#include "engine/pipeline/step.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+void Step<S>::findLandingBodies() {
+    std::vector<std::uint8_t>& may = state_.mayLand;
+    may.assign(bodies_.size(), 0);
+    state_.landings.clear();
+    if (!algorithms_.locatesImpacts || !rowsLag()) return;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) may[i] = state_.bound[i] && bodies_.invMass[i] > 0;
+    for (const auto& record : joints_.records()) may[record.joint.a] = may[record.joint.b] = 0;
+    for (const auto& record : world_.forces.records()) may[record.place.a] = may[record.place.b] = 0;
+    for (const Contact<S>& contact : contacts_.list())
+        if (contact.manifold.count > 0 && bodies_.invMass[contact.bodyA] > 0 &&
+            bodies_.invMass[contact.bodyB] > 0)
+            may[contact.bodyA] = may[contact.bodyB] = 0;
+    state_.before.assign(bodies_.velocity.begin(), bodies_.velocity.end());
+}
+
+/// What holds a body until it lands acts for that part of the step, before the impact: its last impulses.
+template <class S>
+void Step<S>::beginLandings() {
+    std::vector<Landing<S>>& landings = state_.landings;
+    landings.clear();
+    state_.held.clear();
+    for (const LandingPoint<Real>& point : contactModel_.landings()) {
+        const Block<S>& block = rows_.blocks[point.block];
+        const std::uint32_t body = bodies_.invMass[block.a] > 0 ? block.a : block.b;
+        const auto same = [&](const Landing<S>& landing) { return landing.body == body; };
+        auto found = std::find_if(landings.begin(), landings.end(), same);
+        if (found == landings.end()) found = landings.insert(found, {body, Real(0), Real(0), {}});
+        found->time += point.time;
+        found->points += 1;
+        state_.mayLand[body] = 2;
+    }
+    for (Landing<S>& landing : landings) landing.time /= landing.points;
+    if (landings.empty()) return;
+    for (const Block<S>& block : rows_.blocks) {
+        if (block.kind != BlockKind::Contact) continue;
+        const std::uint32_t body = bodies_.invMass[block.a] > 0 ? block.a : block.b;
+        if (state_.mayLand[body] != 2) continue;
+        const auto same = [&](const Landing<S>& landing) { return landing.body == body; };
+        const Real time = std::find_if(landings.begin(), landings.end(), same)->time;
+        for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
+            const Real held = (Real(0.5) + time) * rows_.rows[i].impulse;
+            if (held == 0) continue;
+            applyRowImpulse<S>(rows_.rows[i], block, held, bodies_.velocity[block.a],
+                               bodies_.velocity[block.b]);
+            state_.held.push_back({i, held});
+        }
+    }
+}
+
+/// Bodies that have landed in this step go where they would be if they had kept their velocity until they did.
+template <class S>
+void Step<S>::placeLandings() {
+    for (const auto& [row, impulse] : state_.held) rows_.rows[row].impulse += impulse;
+    for (Landing<S>& landing : state_.landings) {
+        const Velocity<S>&before = state_.before[landing.body], &after = motion_.used()[landing.body];
+        landing.change = {typename S::Vec(before.v - after.v), Ang(before.w - after.w)};
+        const Velocity<S> more{typename S::Vec(landing.time * landing.change.v),
+                               Ang(landing.time * landing.change.w)};
+        motion_.carry(bodies_.pose[landing.body], more, state_.substepSize);
+        motion_.replaceUsed(landing.body, {typename S::Vec(after.v + more.v), Ang(after.w + more.w)});
+    }
+}
+
+/// The way from the next midpoint back to the end of the step is that of the velocity after the landing, as far as there was
+/// one before the end.
+template <class S>
+void Step<S>::shortenLandings() {
+    for (const Landing<S>& landing : state_.landings) {
+        const Velocity<S> used = motion_.used()[landing.body];
+        const Real share = std::max(Real(0), Real(2) * landing.time - Real(1)) - landing.time;
+        motion_.replaceUsed(landing.body, {typename S::Vec(used.v + share * landing.change.v),
+                                           Ang(used.w + share * landing.change.w)});
+    }
+}
+
+#define RIGOR_INSTANTIATE(S)                    \
+    template void Step<S>::findLandingBodies(); \
+    template void Step<S>::beginLandings();     \
+    template void Step<S>::placeLandings();     \
+    template void Step<S>::shortenLandings();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine
