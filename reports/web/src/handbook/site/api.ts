@@ -5,7 +5,9 @@
 // the comment before it (///) or behind it (///<).
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { type Language, words } from './contents.ts';
 import { coloured, escaped } from './markup.ts';
+import { referenceWords } from './reference_words.ts';
 
 export interface Declaration {
   line: number;
@@ -59,15 +61,11 @@ export function readHeader(file: string, text: string): Header {
   return { file, purpose: head.join('\n').trim(), declarations };
 }
 
-export function apiHtml(root: string): string {
+export function apiHtml(root: string, language: Language): string {
   const included = [
     ...readFileSync(join(root, 'engine/engine.hpp'), 'utf8').matchAll(/#include "(engine\/[^"]+)"/g),
   ].map((m) => m[1] as string);
-  const more = [
-    'engine/state/world_def.hpp',
-    'engine/pipeline/shape_def.hpp',
-    'engine/constraints/joint_def.cpp',
-  ].filter((f) => f.endsWith('.hpp'));
+  const more = ['engine/state/world_def.hpp', 'engine/pipeline/shape_def.hpp'];
   const parts = [...included, ...more].map((file) => {
     const header = readHeader(file, readFileSync(join(root, file), 'utf8'));
     const rows = header.declarations.map(
@@ -76,5 +74,6 @@ export function apiHtml(root: string): string {
     );
     return `<h2 id="${escaped(file)}"><code>${escaped(file)}</code></h2><pre class="muted" tabindex="0">${escaped(header.purpose)}</pre>${rows.join('\n')}`;
   });
-  return `<p>One include, <code>engine/engine.hpp</code>, has everything below. <code>cmake --install BUILD --component engine</code> installs it with a CMake package.</p><p><input class="filter" type="search" aria-label="Filter" placeholder="Filter"></p>\n${parts.join('\n')}`;
+  const filter = words[language].filter;
+  return `<p>${referenceWords[language].apiText}</p><p><input class="filter" type="search" aria-label="${filter}" placeholder="${filter}"></p>\n${parts.join('\n')}`;
 }

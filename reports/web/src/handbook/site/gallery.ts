@@ -7,12 +7,15 @@ import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Json } from '../../replay/json.ts';
+import type { Language } from './contents.ts';
 import { escaped } from './markup.ts';
 import { scenarioFile } from './record.ts';
+import { referenceWords } from './reference_words.ts';
 import { type GeneratedPage, versionOf } from './site.ts';
 
 interface Picture {
   scenario: string;
+  zh: string; // title in Chinese
   engine: string;
   at: number; // [s]
   show?: string;
@@ -40,7 +43,8 @@ const drawing = (p: Picture, file: string, out: string): string[] => [
   out,
 ];
 
-export function galleryPage(root: string, program: string, folder: string): GeneratedPage {
+export function galleryPage(root: string, program: string, folder: string, language: Language): GeneratedPage {
+  const w = referenceWords[language];
   mkdirSync(folder, { recursive: true });
   const cards = readGallery(root).map((picture) => {
     const source = scenarioFile(root, picture.scenario);
@@ -53,15 +57,16 @@ export function galleryPage(root: string, program: string, folder: string): Gene
     }
     const scenario = JSON.parse(readFileSync(source, 'utf8')) as Json;
     const command = `./rigor ${drawing(picture, picture.scenario, name).join(' ')}`;
-    return `<article class="card"><img src="../pictures/${name}" alt="${escaped(scenario.title)}" loading="lazy"><div class="below"><h2>${escaped(scenario.title)}</h2><p class="muted"><a href="reference/scenarios.html#${picture.scenario}"><code>${picture.scenario}</code></a>, ${escaped(picture.engine)}, ${picture.at} s</p><details><summary>command</summary><code>${escaped(command)}</code></details></div></article>`;
+    const title = escaped(language === 'zh' ? picture.zh : scenario.title);
+    return `<article class="card"><img src="../pictures/${name}" alt="${title}" loading="lazy"><div class="below"><h2>${title}</h2><p class="muted"><a href="reference/scenarios.html#${picture.scenario}"><code>${picture.scenario}</code></a>, ${escaped(picture.engine)}, ${picture.at} s</p><details><summary>${w.command}</summary><code>${escaped(command)}</code></details></div></article>`;
   });
-  const version = versionOf(root);
   const report = existsSync(join(folder, '../report/index.html'))
-    ? '<p><a href="../report/index.html">The reference report of this version</a>: every scenario of the suite <code>standard</code> on every installed engine.</p>'
-    : '<p><code>./rigor docs --report</code> also makes the reference report of this version: every scenario of the suite <code>standard</code> on every installed engine. It takes some minutes and stands in the folder <code>report</code> of this site.</p>';
+    ? `<p><a href="../report/index.html">${w.report}</p>`
+    : `<p>${w.noReport}</p>`;
   return {
-    path: 'en/gallery.html',
-    title: 'Gallery',
-    html: `<h1>Gallery</h1>\n<p>Scenes of the library in version ${escaped(version)}, each drawn by <code>rigor draw</code>. <code>./rigor docs</code> makes them all.</p>\n${report}\n<div class="cards">${cards.join('\n')}</div>`,
+    language,
+    name: 'gallery',
+    title: w.gallery,
+    html: `<h1>${w.gallery}</h1>\n<p>${w.galleryText(escaped(versionOf(root)))}</p>\n${report}\n<div class="cards">${cards.join('\n')}</div>`,
   };
 }

@@ -6,6 +6,7 @@
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { brokenLinks, externalRequests, translationErrors } from './checks.ts';
+import { languages } from './contents.ts';
 import { galleryPage } from './gallery.ts';
 import { Recorder } from './record.ts';
 import { referencePages } from './reference.ts';
@@ -13,7 +14,11 @@ import { makeSite } from './site.ts';
 
 function build(root: string, output: string, program: string): string[] {
   const recorder = new Recorder(root, program, join(output, 'data'));
-  const generated = [...referencePages(root, program), galleryPage(root, program, join(output, 'pictures'))];
+  const pictures = join(output, 'pictures');
+  const generated = [
+    ...referencePages(root, program),
+    ...languages.map((language) => galleryPage(root, program, pictures, language)),
+  ];
   const site = makeSite(root, recorder, generated);
   for (const [path, text] of site.files) {
     const file = join(output, path);

@@ -9,11 +9,10 @@ import { dirname, join, relative } from 'node:path';
 import katex from 'katex';
 import type { Json } from '../../replay/json.ts';
 import { apiHtml } from './api.ts';
-import { words } from './contents.ts';
+import { type Language, languages, words } from './contents.ts';
 import { escaped, renderPage } from './markup.ts';
+import { chineseHeadings, referenceWords } from './reference_words.ts';
 import type { GeneratedPage } from './site.ts';
-
-const folder = 'en/reference';
 
 /** A document of the repository that is a page as it stands. */
 interface Document {
@@ -31,15 +30,22 @@ const documents: Document[] = [
   { file: 'engine/LIMITS.md', page: 'limits' },
 ];
 
+/** Output of the program by its arguments: both languages show the same tables. */
+const outputs = new Map<string, string>();
+
 function output(program: string, given: string[]): string {
+  const known = outputs.get(given.join(' '));
+  if (known !== undefined) return known;
   const ended = spawnSync(program, given, { encoding: 'utf8', maxBuffer: 1 << 26, timeout: 120_000 });
   if (ended.status !== 0) throw new Error(`${given.join(' ')} ended with ${ended.status}: ${ended.stderr}`);
+  outputs.set(given.join(' '), ended.stdout);
   return ended.stdout;
 }
 
 const list = (program: string, what: string): Json[] => JSON.parse(output(program, ['list', what, '--json'])) as Json[];
 
-const filter = `<p><input class="filter" type="search" aria-label="${words.en.filter}" placeholder="${words.en.filter}"></p>\n`;
+const filter = (language: Language) =>
+  `<p><input class="filter" type="search" aria-label="${words[language].filter}" placeholder="${words[language].filter}"></p>\n`;
 const entry = (id: string, name: string, body: string) =>
   `<section class="entry" data-entry id="${escaped(id)}"><h2><code>${escaped(name)}</code></h2>${body}</section>\n`;
 const paragraph = (text: string, kind = '') => (text ? `<p${kind ? ` class="${kind}"` : ''}>${escaped(text)}</p>` : '');
@@ -50,48 +56,50 @@ function formulaHtml(tex: string, plain: string): string {
   return plain ? `<p><code>${escaped(plain)}</code></p>` : '';
 }
 
-function page(name: string, title: string, body: string): GeneratedPage {
-  return { path: `${folder}/${name}.html`, title, html: `<h1>${escaped(title)}</h1>\n${body}` };
+function page(language: Language, name: string, title: string, body: string): GeneratedPage {
+  return { language, name: `reference/${name}`, title, html: `<h1>${escaped(title)}</h1>\n${body}` };
 }
 
-function metrics(program: string): GeneratedPage {
+function metrics(program: string, language: Language): GeneratedPage {
+  const w = referenceWords[language];
   const entries = list(program, 'metrics').map((m) =>
     entry(
       m.name,
       m.name,
-      `${paragraph(m.title)}<p><code>${escaped(m.formula)}</code></p>${paragraph(`${m.kind}, unit ${m.unit}`, 'muted')}`,
+      `${paragraph(m.title)}<p><code>${escaped(m.formula)}</code></p>${paragraph(w.metricFacts(m.kind, m.unit), 'muted')}`,
     ),
   );
-  const text = paragraph('Every metric is one pure function from a trajectory to a number, the same for every engine.');
-  return page('metrics', 'Metrics', text + filter + entries.join(''));
+  return page(language, 'metrics', w.metrics, paragraph(w.metricsText) + filter(language) + entries.join(''));
 }
 
-function references(program: string): GeneratedPage {
+function references(program: string, language: Language): GeneratedPage {
+  const w = referenceWords[language];
   const entries = list(program, 'references').map((r) =>
     entry(
       r.name,
       r.name,
       paragraph(r.title) +
         formulaHtml(r.tex ?? '', r.formula ?? '') +
-        paragraph(r.source ? `Source: ${r.source}` : '', 'muted'),
+        paragraph(r.source ? w.source + r.source : '', 'muted'),
     ),
   );
-  const text = paragraph('Exact solutions that scenarios name under "reference", with their sources.');
-  return page('references', 'References', text + filter + entries.join(''));
+  return page(language, 'references', w.references, paragraph(w.referencesText) + filter(language) + entries.join(''));
 }
 
-function scenarios(program: string): GeneratedPage {
+function scenarios(program: string, language: Language): GeneratedPage {
+  const w = referenceWords[language];
   const entries = list(program, 'scenarios').map((s) => {
-    const facts = [`${s.dimension}D`, `${s.bodies} bodies`, `${s.duration} s`, ...(s.isolates ?? [])];
+    const facts = [...w.sceneFacts(s.dimension, s.bodies, s.duration), ...(s.isolates ?? [])];
     const reference = s.reference
-      ? `<p class="muted">reference: <a href="references.html#${escaped(s.reference)}"><code>${escaped(s.reference)}</code></a></p>`
+      ? `<p class="muted">${w.reference}: <a href="references.html#${escaped(s.reference)}"><code>${escaped(s.reference)}</code></a></p>`
       : '';
     return entry(s.name, s.name, paragraph(s.title) + paragraph(facts.join(', '), 'muted') + reference);
   });
-  return page('scenarios', 'Scenarios of the library', filter + entries.join(''));
+  return page(language, 'scenarios', w.scenarios, filter(language) + entries.join(''));
 }
 
-function algorithms(program: string): GeneratedPage {
+function algorithms(program: string, language: Language): GeneratedPage {
+  const w = referenceWords[language];
   const stages = new Map<string, Json[]>();
   for (const a of list(program, 'algorithms')) {
     const known = stages.get(a.stage);
@@ -101,52 +109,49 @@ function algorithms(program: string): GeneratedPage {
   const parts = [...stages].map(([stage, all]) => {
     const rows = all.map(
       (a) =>
-        `<tr data-entry><td><code>${escaped(a.name)}</code></td><td>${escaped(a.summary ?? '')}${a.default ? ' <b>(default)</b>' : ''}</td></tr>`,
+        `<tr data-entry><td><code>${escaped(a.name)}</code></td><td>${escaped(a.summary ?? '')}${a.default ? ` <b>${w.isDefault}</b>` : ''}</td></tr>`,
     );
     return `<h2 id="${escaped(stage)}">${escaped(stage.replaceAll('_', ' '))}</h2><div class="table" tabindex="0"><table><tbody>${rows.join('')}</tbody></table></div>`;
   });
-  const text = paragraph(
-    'What the in-house engine can do at every stage of its step. A choice is made in a spec, as in rigor:solver=nsgs,substeps=4.',
-  );
-  return page('algorithms', 'Algorithms of the engine', text + filter + parts.join('\n'));
+  return page(language, 'algorithms', w.algorithms, paragraph(w.algorithmsText) + filter(language) + parts.join('\n'));
 }
 
-function engineOptions(options: Json[]): string {
+function engineOptions(options: Json[], columns: readonly string[]): string {
   const rows = options.map((o) => {
     const values = o.values ? o.values.join(', ') : o.range ? `${o.range[0]} … ${o.range[1]}` : '';
     return `<tr data-entry><td><code>${escaped(String(o.key))}</code></td><td>${escaped(String(o.default ?? ''))}</td><td>${escaped(String(o.matched ?? ''))}</td><td>${escaped(String(o.help ?? ''))}<br><span class="muted">${escaped(values)}</span></td></tr>`;
   });
-  return `<div class="table" tabindex="0"><table><thead><tr><th>key</th><th>default</th><th>matched</th><th>meaning and values</th></tr></thead><tbody>${rows.join('')}</tbody></table></div>`;
+  return `<div class="table" tabindex="0"><table><thead><tr>${columns.map((c) => `<th>${c}</th>`).join('')}</tr></thead><tbody>${rows.join('')}</tbody></table></div>`;
 }
 
-function specs(program: string): GeneratedPage {
+function specs(program: string, language: Language): GeneratedPage {
+  const w = referenceWords[language];
   const engines = list(program, 'engines').filter((e) => !e.problem);
   const parts = engines.map((e) => {
-    const facts = [
-      `version ${e.version}`,
-      `precision ${(e.precisions ?? []).join(', ')}`,
-      `presets ${(e.presets ?? []).join(', ')}`,
-    ];
-    return `<h2 id="${escaped(e.name)}">${escaped(e.title)} (<code>${escaped(e.name)}</code>)</h2>${paragraph(facts.join('; '), 'muted')}${engineOptions(e.options ?? [])}`;
+    const facts = w.facts(e.version, (e.precisions ?? []).join(', '), (e.presets ?? []).join(', '));
+    return `<h2 id="${escaped(e.name)}">${escaped(e.title)} (<code>${escaped(e.name)}</code>)</h2>${paragraph(facts, 'muted')}${engineOptions(e.options ?? [], w.specColumns)}`;
   });
-  const text = `<p>An engine is named by a spec, <code>NAME:key=value,key=value</code>. These engines were installed where this page was made; <code>./rigor list engines</code> shows yours.</p>`;
-  return page('specs', 'Engines and their settings', text + filter + parts.join('\n'));
+  return page(language, 'specs', w.specs, `<p>${w.specsText}</p>${filter(language)}${parts.join('\n')}`);
 }
 
-function studies(program: string): GeneratedPage {
+function studies(program: string, language: Language): GeneratedPage {
+  const w = referenceWords[language];
   const row = (s: Json, parts: string[]) =>
     `<tr><td><code>${escaped(s.name)}</code></td><td>${escaped(s.title)}<br><span class="muted">${escaped(parts.join(', '))}</span></td></tr>`;
   const table = (rows: string[]) =>
     `<div class="table" tabindex="0"><table><tbody>${rows.join('')}</tbody></table></div>`;
-  const suites = list(program, 'suites').map((s) => row(s, [`${(s.scenarios ?? []).length} scenarios`]));
+  const suites = list(program, 'suites').map((s) => row(s, [w.suiteSize((s.scenarios ?? []).length)]));
+  const studyTable = table(list(program, 'studies').map((s) => row(s, s.parts ?? [])));
   return page(
+    language,
     'suites-and-studies',
-    'Suites and studies',
-    `<h2>Suites</h2>${paragraph('Lists of scenarios for rigor validate.')}${table(suites)}<h2>Studies</h2>${paragraph('Grids of choices for rigor study; beside each the parts that --part selects.')}${table(list(program, 'studies').map((s) => row(s, s.parts ?? [])))}`,
+    w.studiesPage,
+    `<h2>${w.suites}</h2>${paragraph(w.suitesText)}${table(suites)}<h2>${w.studies}</h2>${paragraph(w.studiesText)}${studyTable}`,
   );
 }
 
-function commandLine(program: string): GeneratedPage {
+function commandLine(program: string, language: Language): GeneratedPage {
+  const w = referenceWords[language];
   const main = output(program, ['--help']);
   const names = [...(main.split('Subcommands:')[1]?.split('\n\n')[0] ?? '').matchAll(/^ {2}([a-z]+) /gm)].map(
     (m) => m[1] as string,
@@ -159,17 +164,17 @@ function commandLine(program: string): GeneratedPage {
     const help = output(program, [name, '--help']);
     return `<h2 id="${name}">rigor ${name}</h2>${block(help.replace(common, ''))}`;
   });
-  return page('command-line', 'Command line and exit codes', block(main) + parts.join('\n'));
+  return page(language, 'command-line', w.commandLine, block(main) + parts.join('\n'));
 }
 
 /** A document of the repository; its links to others lead to their pages, those to files are left as text. */
-function documentPage(root: string, { file, page: name, title }: Document): GeneratedPage {
+function documentPage(root: string, { file, page: name, title }: Document, language: Language): GeneratedPage {
   const made = renderPage(readFileSync(join(root, file), 'utf8'), {
     readSource: () => '',
     siteRoot: '',
     sourceLink: () => '',
     sceneHtml: () => '',
-    words: words.en,
+    words: words[language],
   });
   const html = made.html.replace(/<a href="([^"]*)">([\s\S]*?)<\/a>/g, (whole, target: string, text: string) => {
     if (/^https?:/.test(target)) return whole;
@@ -177,34 +182,40 @@ function documentPage(root: string, { file, page: name, title }: Document): Gene
     const known = documents.find((d) => d.file === to);
     return known ? `<a href="${known.page}.html">${text}</a>` : text;
   });
-  const note = `<p class="muted">From <code>${escaped(file)}</code>.</p>`;
-  return { path: `${folder}/${name}.html`, title: title ?? made.title, html: html.replace('</h1>', `</h1>\n${note}`) };
+  const note = `<p class="muted">${referenceWords[language].from(escaped(file))}</p>`;
+  const english = title ?? made.title;
+  const headed = language === 'zh' ? html.replace(/(<h[1-4][^>]*>)([\s\S]*?)(<\/h[1-4]>)/g, inChinese) : html;
+  return {
+    language,
+    name: `reference/${name}`,
+    title: language === 'zh' ? (chineseHeadings[english] ?? english) : english,
+    html: headed.replace('</h1>', `</h1>\n${note}`),
+  };
 }
 
-function schemas(root: string): GeneratedPage {
+/** A heading of a document in Chinese, with the English one behind it: the text below is English. */
+function inChinese(whole: string, open: string, text: string, close: string): string {
+  const plain = text.replace(/<[^>]*>/g, '').replaceAll('&#39;', "'");
+  const chinese = chineseHeadings[plain];
+  return chinese ? `${open}${chinese} <small lang="en">${text}</small>${close}` : whole;
+}
+
+function schemas(root: string, language: Language): GeneratedPage {
+  const w = referenceWords[language];
   const block = (name: string) => {
     const text = readFileSync(join(root, 'scenarios/schema', name), 'utf8');
-    return `<h2>${escaped(name)}</h2><details><summary>${text.split('\n').length} lines</summary><div class="code"><pre tabindex="0"><code>${escaped(text)}</code></pre></div></details>`;
+    return `<h2>${escaped(name)}</h2><details><summary>${w.lines(text.split('\n').length)}</summary><div class="code"><pre tabindex="0"><code>${escaped(text)}</code></pre></div></details>`;
   };
   const names = ['scenario.schema.json', 'suite.schema.json', 'study.schema.json', 'collision.schema.json'];
-  return page(
-    'schemas',
-    'JSON schemas',
-    paragraph('What rigor check holds files to before it looks at their meaning.') + names.map(block).join('\n'),
-  );
+  return page(language, 'schemas', w.schemas, paragraph(w.schemasText) + names.map(block).join('\n'));
 }
 
+/** The pages of the reference in both languages. */
 export function referencePages(root: string, program: string): GeneratedPage[] {
-  return [
-    commandLine(program),
-    specs(program),
-    algorithms(program),
-    scenarios(program),
-    studies(program),
-    metrics(program),
-    references(program),
-    ...documents.map((d) => documentPage(root, d)),
-    schemas(root),
-    page('api', "The engine's interface in C++", apiHtml(root)),
-  ];
+  return languages.flatMap((language) => [
+    ...[commandLine, specs, algorithms, scenarios, studies, metrics, references].map((make) => make(program, language)),
+    ...documents.map((d) => documentPage(root, d, language)),
+    schemas(root, language),
+    page(language, 'api', referenceWords[language].api, apiHtml(root, language)),
+  ]);
 }

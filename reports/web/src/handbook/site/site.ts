@@ -10,10 +10,12 @@ import type { SceneFence } from './fences.ts';
 import { documentHtml, type NavigationItem, rootOf, sceneHtml, sourceHtml } from './layout.ts';
 import { type Page, renderPage } from './markup.ts';
 import { type Recorder, scenarioFile } from './record.ts';
+import { referenceWords } from './reference_words.ts';
 
-/** Pages that are made from tables of the program, in English. */
+/** Pages that are made from tables of the program: headings in the language, the tables' texts in English. */
 export interface GeneratedPage {
-  path: string; // path from the root of the site
+  language: Language;
+  name: string; // path without language and extension: "reference/metrics"
   title: string;
   html: string;
 }
@@ -100,9 +102,10 @@ export function makeSite(root: string, recorder: Recorder | null, generated: rea
         return found ? [{ path: found.path, title: found.page.headings[0]?.html ?? name }] : [];
       }),
     }));
-    const more = generated.map((g): NavigationItem => ({ path: g.path, title: g.title }));
-    if (more.length > 0)
-      parts.push({ title: language === 'zh' ? '参考与图库（英文）' : 'Reference and gallery', pages: more });
+    const more = generated
+      .filter((g) => g.language === language)
+      .map((g): NavigationItem => ({ path: `${language}/${g.name}.html`, title: g.title }));
+    if (more.length > 0) parts.push({ title: referenceWords[language].part, pages: more });
     return parts;
   };
   const navigation = { en: items('en'), zh: items('zh') };
@@ -122,8 +125,11 @@ export function makeSite(root: string, recorder: Recorder | null, generated: rea
     const twin = pages.find((p) => p.language !== language && p.name === name);
     files.set(path, documentHtml(frame(language, path, page.title, twin?.path ?? null), page.html));
   }
-  for (const { path, title, html } of generated)
-    files.set(path, documentHtml(frame('en', path, title, 'zh/index.html'), html));
+  for (const { language, name, title, html } of generated) {
+    const path = `${language}/${name}.html`;
+    const twin = `${language === 'en' ? 'zh' : 'en'}/${name}.html`;
+    files.set(path, documentHtml(frame(language, path, title, twin), html));
+  }
   for (const [file, text] of sources) {
     const path = sourcePath(file);
     files.set(path, documentHtml(frame('en', path, file, null), sourceHtml(file, text)));
