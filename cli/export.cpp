@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -19,13 +20,24 @@ struct ExportArguments {
     bool json = false;
 };
 
+void writeFile(const std::filesystem::path& file, const std::string& bytes) {
+    std::ofstream to(file, std::ios::binary);
+    to << bytes;
+    if (!to.flush()) throw std::invalid_argument("--out: cannot write '" + file.string() + "'");
+}
+
 int runExport(const ExportArguments& a) {
     const auto loaded = scenario::loadScenario(scenario::findScenario(a.scenario), a.overrides);
     models::Report report({a.without.begin(), a.without.end()});
     std::string text;
+    models::FilesBeside beside;
     try {
-        text = a.format == "mjcf" ? models::mjcfText(loaded.scenario, report)
-                                  : models::urdfText(loaded.scenario, report);
+        text = a.format == "mjcf" ? models::mjcfText(loaded.scenario, report, beside)
+                                  : models::urdfText(loaded.scenario, report, beside);
+        if (!beside.empty() && a.out.empty())
+            report.refuse("files", {loaded.scenario.name, 0},
+                          "the model refers to " + std::to_string(beside.size()) +
+                              " files beside it: --out FILE says where");
     } catch (const models::Refusal& refusal) {
         report.refuse("scenario", refusal.place(), refusal.what());
     }
@@ -45,9 +57,9 @@ int runExport(const ExportArguments& a) {
         if (!a.json) std::printf("%s", text.c_str());
         return kOk;
     }
-    std::ofstream to(a.out, std::ios::binary);
-    to << text;
-    if (!to.flush()) throw std::invalid_argument("--out: cannot write '" + a.out + "'");
+    writeFile(a.out, text);
+    for (const auto& [name, bytes] : beside)
+        writeFile(std::filesystem::path(a.out).replace_filename(name), bytes);
     return kOk;
 }
 

@@ -14,6 +14,7 @@
 
 #include "cli/command.hpp"
 #include "scenarios/exchange/common/formats.hpp"
+#include "scenarios/exchange/common/text.hpp"
 #include "validation/runner/scratch_folder.hpp"
 #include "validation/runner/start_program.hpp"
 
@@ -24,7 +25,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::size_t kMemoryMiB = 4096;
-constexpr auto kLongest = std::chrono::minutes(5);
 
 fs::path readerOf(const models::Format& format) {
     const std::string name = std::string("rigor-read-") + format.name;
@@ -37,7 +37,7 @@ fs::path readerOf(const models::Format& format) {
 }
 
 /// The answer of the reader; a reader that ends in another way is a refusal with its last message.
-models::Answer runReader(const models::Format& format, const models::ReadOptions& options) {
+models::Answer runReader(const models::Format& format, const models::ReadOptions& options, double timeLimit) {
     const validation::ScratchFolder folder;
     const fs::path answerFile = folder.path() / "answer.json";
     int ends[2];
@@ -47,7 +47,7 @@ models::Answer runReader(const models::Format& format, const models::ReadOptions
         kMemoryMiB);
     close(ends[1]);
     std::string said;
-    const auto deadline = std::chrono::steady_clock::now() + kLongest;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeLimit);
     bool isLate = false, isOpen = true;
     while (isOpen && !isLate) {
         pollfd output{ends[0], POLLIN, 0};
@@ -68,11 +68,15 @@ models::Answer runReader(const models::Format& format, const models::ReadOptions
         answer.report = models::Report::fromJson(read.at("report"));
         return answer;
     }
+    std::string how;
     const std::string last = validation::lastLine(said);
-    answer.report.refuse(
-        "file", {options.file.filename().string(), 0},
-        isLate ? "its reader did not end within five minutes"
-               : "its reader ended with " + validation::endingOf(status) + (last.empty() ? "" : ": " + last));
+    if (isLate)
+        how = "did not end within " + models::digits({timeLimit}) + " s (--time-limit)";
+    else if (said.find("bad_alloc") != std::string::npos)
+        how = "needs more than " + std::to_string(kMemoryMiB) + " MiB of memory";
+    else
+        how = "ended with " + validation::endingOf(status) + (last.empty() ? "" : ": " + last);
+    answer.report.refuse("file", {options.file.filename().string(), 0}, "its reader " + how);
     return answer;
 }
 
@@ -104,6 +108,12 @@ void addModelOptions(CLI::App& command, ModelArguments& a) {
     group->add_flag("--self-collision", a.options.selfCollision,
                     "URDF: links of the robot collide with each other");
     group->add_flag("--hull", a.options.hull, "Take the convex hull of a mesh that moves and is not convex");
+    group
+        ->add_option("--hull-corners", a.options.hullCorners,
+                     "Take this many corners of a convex hull that has more, those that stand out most")
+        ->check(CLI::Range(4, 64));
+    group->add_option("--time-limit", a.timeLimit, "Most seconds for the reader (default 300)")
+        ->check(CLI::Range(1.0, 86400.0));
     group->add_flag("--static", a.options.isStatic, "Meshes: the mesh is the ground, of triangles");
     group->add_flag("--json", a.json, "The report as JSON on stdout");
 }
@@ -123,7 +133,7 @@ int importModel(const std::string& format, const std::string& file, const std::s
         options.hasFloor = true;
         options.floor = std::stod(a.floor);
     }
-    const models::Answer answer = runReader(*models::findFormat(format), options);
+    const models::Answer answer = runReader(*models::findFormat(format), options, a.timeLimit);
     const bool isRefused = answer.report.isRefused();
     if (a.json) {
         json report = answer.report.json();

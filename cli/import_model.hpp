@@ -19,6 +19,7 @@ struct ModelArguments {
     models::ReadOptions options;
     std::vector<std::string> without, assets;
     std::string floor, dt;
+    double timeLimit = 300.0;  ///< [s] of the reader
     bool json = false;
 };
 

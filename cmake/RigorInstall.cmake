@@ -9,6 +9,7 @@
 #     engine           library and headers of the in-house engine (engine/package)
 #     development      the adapter interface and the reader of results
 #     python           the Python package (reports/python)
+#     documentation    the handbook, where it has been written
 #
 # Nothing that is installed names a folder of this machine: programs find lib/ and share/ beside their own bin/, so an
 # installation may be moved. The build folder has the same share/rigor, of links into the source tree.

@@ -4,9 +4,10 @@
 # Debian packages: `cmake --build BUILD --target rigor_packages` (or `./rigor package`) writes them to BUILD/packages, one
 # for each component of RigorInstall.cmake that was built:
 #
-#     rigor  rigor-adapters-<engine>  rigor-readers  rigor-engine-dev  rigor-dev  python3-rigor
+#     rigor  rigor-adapters-<engine>  rigor-readers  rigor-engine-dev  rigor-dev  rigor-doc  python3-rigor
 #
-# DEBFULLNAME and DEBEMAIL name the maintainer, as for other tools of Debian.
+# Whoever hands packages to others is their maintainer: -DRIGOR_MAINTAINER="Name <address>", or DEBFULLNAME and DEBEMAIL as
+# for Debian's own tools. The default is an address that reaches nobody (RFC 2606).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME rigor)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -18,23 +19,22 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
                                                 WORLD_EXECUTE)
-set(name "The Rigor authors")
-set(email rigor@example.org)
-if(DEFINED ENV{DEBFULLNAME})
-    set(name "$ENV{DEBFULLNAME}")
+set(maintainer "The Rigor authors <no-reply@rigor.invalid>")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+    set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
 endif()
-if(DEFINED ENV{DEBEMAIL})
-    set(email "$ENV{DEBEMAIL}")
-endif()
-set(RIGOR_MAINTAINER "${name} <${email}>")
+set(RIGOR_MAINTAINER "${maintainer}" CACHE STRING "Maintainer of the Debian packages: Name <address>")
 set(CPACK_PACKAGE_CONTACT "${RIGOR_MAINTAINER}")
+set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/packages/components.cmake)
+set(CPACK_RIGOR_HANDBOOK ${PROJECT_BINARY_DIR}/handbook)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/packages/debian_tree.cmake)
 set(RIGOR_PACKAGE_FILES ${CMAKE_CURRENT_BINARY_DIR}/package_files)
 
 # rigor_package(<component> <package> SECTION <section> SUMMARY <text> DESCRIPTION <text> [DEPENDS ...] [RECOMMENDS ...]
-# [SUGGESTS ...] [SHLIBDEPS] [CONTROL files]): SHLIBDEPS adds the libraries that its programs and modules load.
+# [SUGGESTS ...] [SHLIBDEPS] [ALL] [CONTROL files]): SHLIBDEPS adds the libraries that its programs and modules load; ALL: the
+# same for all architectures.
 function(rigor_package component package)
-    cmake_parse_arguments(ARG "SHLIBDEPS" "SECTION;SUMMARY;DESCRIPTION" "DEPENDS;RECOMMENDS;SUGGESTS;CONTROL" ${ARGN})
+    cmake_parse_arguments(ARG "SHLIBDEPS;ALL" "SECTION;SUMMARY;DESCRIPTION" "DEPENDS;RECOMMENDS;SUGGESTS;CONTROL" ${ARGN})
     string(TOUPPER ${component} id)
     set(prefix CPACK_DEBIAN_${id}_PACKAGE)
     foreach(list DEPENDS RECOMMENDS SUGGESTS)
@@ -44,6 +44,9 @@ function(rigor_package component package)
     set(${prefix}_NAME ${package} PARENT_SCOPE)
     set(${prefix}_SECTION ${ARG_SECTION} PARENT_SCOPE)
     set(${prefix}_SHLIBDEPS ${ARG_SHLIBDEPS} PARENT_SCOPE)
+    if(ARG_ALL)
+        set(CPACK_DEBIAN_${id}_PACKAGE_ARCHITECTURE all PARENT_SCOPE)
+    endif()
     set(${prefix}_CONTROL_EXTRA "${ARG_CONTROL}" PARENT_SCOPE)
     set(CPACK_DEBIAN_${id}_DESCRIPTION "${ARG_SUMMARY}\n${ARG_DESCRIPTION}" PARENT_SCOPE)
     set(RIGOR_PACKAGE_COMPONENTS ${RIGOR_PACKAGE_COMPONENTS} ${component} PARENT_SCOPE)
@@ -80,7 +83,7 @@ if(readers)
                   DESCRIPTION "${about}\nThis package holds the readers of models of other simulators, and of\nmeshes.")
     set(suggested rigor-readers)
 endif()
-rigor_package(program rigor SECTION science SHLIBDEPS RECOMMENDS ${adapters} SUGGESTS ${suggested} python3-rigor nodejs npm python3
+rigor_package(program rigor SECTION science SHLIBDEPS RECOMMENDS ${adapters} SUGGESTS ${suggested} rigor-doc python3-rigor nodejs npm python3
               SUMMARY "reference-validated testbed for rigid-body physics engines"
               DESCRIPTION "${about}\nThis package holds the programs, the library of scenarios, and the\nin-house engine.")
 rigor_package(engine rigor-engine-dev SECTION libdevel DEPENDS libeigen3-dev libtbb-dev libhwy-dev SUGGESTS cmake
@@ -91,6 +94,12 @@ rigor_package(development rigor-dev SECTION libdevel
               SUGGESTS cmake
               SUMMARY "adapter interface and results reader of Rigor"
               DESCRIPTION "${about}\nThis package holds what modules of further engines are linked with,\nand the reader of stored runs.")
+install(DIRECTORY ${PROJECT_BINARY_DIR}/handbook DESTINATION share/doc/rigor COMPONENT documentation EXCLUDE_FROM_ALL OPTIONAL)
+install(FILES cmake/packages/doc-base DESTINATION share/doc-base RENAME rigor-doc.rigor-handbook COMPONENT documentation
+        EXCLUDE_FROM_ALL)
+rigor_package(documentation rigor-doc SECTION doc ALL
+              SUMMARY "handbook of Rigor, a testbed for rigid-body physics engines"
+              DESCRIPTION "${about}\nThis package holds the handbook in English and Chinese: how a physics\nengine is built, tutorials, the reference, and a gallery.")
 if(TARGET rigor_python_module AND RIGOR_PYTHON_RESULTS)
     execute_process(COMMAND ${RIGOR_PYTHON} -c "import sys; v = sys.version_info; print('python3 (>= %d.%d~), python3 (<< %d.%d)' % (v[0], v[1], v[0], v[1] + 1))"
                     OUTPUT_VARIABLE python OUTPUT_STRIP_TRAILING_WHITESPACE)

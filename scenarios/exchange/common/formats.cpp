@@ -6,7 +6,7 @@ namespace rigor::models {
 
 const std::vector<Format>& formats() {
     static const std::vector<Format> all{
-        {"mjcf", "MuJoCo's model files", "libmujoco-dev libtinyxml2-dev"},
+        {"mjcf", "MuJoCo's model files", "libmujoco-dev libqhull-dev libtinyxml2-dev"},
         {"urdf", "robots of ROS", "liburdfdom-dev libassimp-dev libqhull-dev libtinyxml2-dev"},
         {"sdf", "worlds and models of Gazebo", "libsdformat-dev libassimp-dev libqhull-dev libtinyxml2-dev"},
         {"mesh", "OBJ, STL, glTF and other meshes", "libassimp-dev libqhull-dev libtinyxml2-dev"},

@@ -27,6 +27,7 @@ json toJson(const ReadOptions& o) {
             {"fixed_base", o.fixedBase},
             {"self_collision", o.selfCollision},
             {"hull", o.hull},
+            {"hull_corners", o.hullCorners},
             {"static", o.isStatic},
             {"has_floor", o.hasFloor},
             {"floor", o.floor}};
@@ -48,6 +49,7 @@ ReadOptions optionsFromJson(const json& j) {
     o.fixedBase = j.at("fixed_base").get<bool>();
     o.selfCollision = j.at("self_collision").get<bool>();
     o.hull = j.at("hull").get<bool>();
+    o.hullCorners = j.at("hull_corners").get<int>();
     o.isStatic = j.at("static").get<bool>();
     o.hasFloor = j.at("has_floor").get<bool>();
     o.floor = j.at("floor").get<double>();

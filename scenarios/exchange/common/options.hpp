@@ -30,6 +30,7 @@ struct ReadOptions {
     bool fixedBase = false;                     ///< URDF: the root link does not move
     bool selfCollision = false;  ///< URDF: links of one robot collide unless a joint connects them
     bool hull = false;           ///< moving meshes that are not convex: their convex hull
+    int hullCorners = 0;         ///< most corners of a hull, 4 to 64; 0: all, and more than 64 are refused
     bool isStatic = false;       ///< a mesh file is the ground, of triangles
     bool hasFloor = false;       ///< adds a static half-space, up is +z ...
     double floor = 0.0;          ///< ... at this height [m]

@@ -19,7 +19,6 @@ namespace {
 
 using scenario::Vec3;
 
-constexpr std::size_t kMostHullVertices = 64;
 constexpr std::size_t kMostTriangles = 200000;
 constexpr double kTolerance = 1e-6;  ///< relative to the size: coordinates are in single precision
 
@@ -166,7 +165,7 @@ bool isConvex(const MeshPart& part, const HullOfMesh& hull) {
 }
 
 void addMesh(SceneBuilder& builder, Report& report, int body, const std::vector<MeshPart>& parts,
-             const scenario::Pose& pose, const Surface& surface, int kind, bool takeHull,
+             const scenario::Pose& pose, const Surface& surface, int kind, const ReadOptions& options,
              const Place& place) {
     if (builder.scene.bodies[static_cast<std::size_t>(body)].type == scenario::BodyType::Static)
         return addTriangles(builder, report, body, parts, pose, surface, kind, place);
@@ -178,19 +177,18 @@ void addMesh(SceneBuilder& builder, Report& report, int body, const std::vector<
             const std::string why = which + " is open or not convex (its hull has " +
                                     std::to_string(100.0 * (1.0 - volumeOf(parts[i]) / hull.volume)) +
                                     " % more volume)";
-            if (!takeHull) {
-                report.refuse("mesh", place,
-                              why + " and its body moves; --hull takes the convex hull of each part");
+            if (!options.hull) {
+                report.refuse(
+                    "mesh", place,
+                    why + " and its body moves; --hull takes the convex hull of each connected part. " +
+                        "A file whose parts are convex, as tools of convex decomposition write, " +
+                        "becomes one body of their hulls");
                 continue;
             }
             report.changed("mesh", place, why + ": its convex hull");
         }
-        if (hull.corners.size() > kMostHullVertices)
-            report.refuse("mesh", place,
-                          "the convex hull of " + which + " has " + std::to_string(hull.corners.size()) +
-                              " corners; a scenario's has up to 64");
-        else
-            builder.addShape(body, scenario::ConvexHull{hull.corners}, pose, surface, kind);
+        addHull(builder, report, body, hull.corners, pose, surface, kind, options.hullCorners, "mesh", which,
+                place);
     }
     if (parts.size() > 1)
         report.changed("mesh", place,

@@ -5,7 +5,7 @@
 // triangles for those that do not.
 #pragma once
 
-#include "scenarios/exchange/common/builder.hpp"
+#include "scenarios/exchange/geometry/hull.hpp"
 
 namespace rigor::models {
 
@@ -16,20 +16,13 @@ using MeshPart = scenario::TriangleMesh;
 std::vector<MeshPart> readMesh(const std::filesystem::path& file, const scenario::Vec3& scale,
                                const Place& place);
 
-struct HullOfMesh {
-    std::vector<scenario::Vec3> corners;
-    double volume = 0.0;  ///< [m^3]
-    double dent = 0.0;    ///< distance of the deepest vertex of the mesh below the hull's surface [m]
-};
-/// Convex hull of points, by Qhull. Throws Refusal for points without volume.
-HullOfMesh hullOf(const std::vector<scenario::Vec3>& points, const Place& place);
-
 /// True where the mesh is the surface of its convex hull, within 1e-6 of its size.
 bool isConvex(const MeshPart& part, const HullOfMesh& hull);
 
 /// Adds a mesh to a body: triangles if it is static; else a hull for each part, each of which must be convex unless
-/// `takeHull`. What can not be is refused.
+/// the options say `hull`. What can not be is refused.
 void addMesh(SceneBuilder& builder, Report& report, int body, const std::vector<MeshPart>& parts,
-             const scenario::Pose& pose, const Surface& surface, int kind, bool takeHull, const Place& place);
+             const scenario::Pose& pose, const Surface& surface, int kind, const ReadOptions& options,
+             const Place& place);
 
 }  // namespace rigor::models

@@ -30,7 +30,7 @@ Answer read(const ReadOptions& options) {
     Body body;
     if (options.isStatic) body.type = BodyType::Static;
     const int index = builder.addBody(name, body, place);
-    addMesh(builder, report, index, parts, {}, surface, 0, options.hull, place);
+    addMesh(builder, report, index, parts, {}, surface, 0, options, place);
     if (options.isStatic) {
         Vec3 low = parts[0].vertices[0], high = low;
         for (const auto& part : parts)

@@ -5,6 +5,7 @@
 // has the inertia in principal axes.
 #include <map>
 
+#include "scenarios/exchange/geometry/hull.hpp"
 #include "scenarios/exchange/mjcf/mjcf.hpp"
 
 namespace rigor::models::mjcf {
@@ -16,8 +17,6 @@ using scenario::kNone;
 using scenario::Mat3;
 using scenario::Pose;
 using scenario::Vec3;
-
-constexpr std::size_t kMostHullVertices = 64;
 
 Pose worldPose(const Conversion& c, int body) {
     return {c.point(c.d.xpos, body), normalized(c.turn(c.d.xquat, body))};
@@ -153,15 +152,15 @@ class Geoms {
         if (c_.m.mesh_graphadr[mesh] < 0)
             return c_.report.refuse("<geom> mesh", place, "a mesh without a convex hull");
         const auto hull = hullOf(c_.m, mesh);
-        if (hull.vertices.size() <= kMostHullVertices) {
+        const std::size_t most = 64;  // corners of a scenario's hull
+        if (moves || hull.vertices.size() <= most) {
             c_.report.changed("<geom> mesh", place, "its convex hull, with which MuJoCo collides it");
-            return c_.builder.addShape(to, scenario::ConvexHull{hull.vertices}, pose, surface(geom), kind);
+            return addHull(c_.builder, c_.report, to, hull.vertices, pose, surface(geom), kind,
+                           c_.options.hullCorners, "<geom> mesh", "the mesh", place);
         }
-        const std::string count = std::to_string(hull.vertices.size());
-        if (moves)
-            return c_.report.refuse("<geom> mesh", place,
-                                    "its convex hull has " + count + " corners; a scenario's has up to 64");
-        c_.report.changed("<geom> mesh", place, "the " + count + " corners of its convex hull as triangles");
+        c_.report.changed(
+            "<geom> mesh", place,
+            "the " + std::to_string(hull.vertices.size()) + " corners of its convex hull as triangles");
         c_.builder.addShape(to, hull, pose, surface(geom), kind);
     }
 

@@ -279,7 +279,7 @@ class World {
                 const auto file = assets_.find(g.MeshShape()->Uri(), place);
                 return addMesh(builder_, report_, body,
                                readMesh(file, convert(g.MeshShape()->Scale()), place), pose, law, kind,
-                               options_.hull, place);
+                               options_, place);
             }
             default:
                 report_.refuse("<geometry>", place, "a kind of shape that is not read");

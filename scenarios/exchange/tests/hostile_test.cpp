@@ -4,11 +4,15 @@
 // Files that are wrong, or that hold what a scenario has not: each is refused with the file, the line and the reason.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <sstream>
+
 #include "scenarios/exchange/tests/tool.hpp"
 
 namespace rigor::models::testing {
 namespace {
 
+using scenario::Scenario;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -148,6 +152,55 @@ TEST(BadModels, AConcaveMeshThatMoves) {
     const auto ground = imported("mesh", mesh, "--static");
     ASSERT_EQ(ground.bodies.size(), 2u);
     EXPECT_EQ(std::get<scenario::TriangleMesh>(ground.bodies[0].shapes[0].geometry).triangles.size(), 14u);
+}
+
+/// Points of a sphere, by turns of the golden angle, as the corners of a hull.
+std::string roundMesh(int points) {
+    std::string text;
+    for (int i = 0; i < points; ++i) {
+        const double z = 1.0 - (2.0 * i + 1.0) / points, r = std::sqrt(1.0 - z * z),
+                     turn = 2.399963229728653 * i;
+        text += std::to_string(r * std::cos(turn)) + " " + std::to_string(r * std::sin(turn)) + " " +
+                std::to_string(z) + " ";
+    }
+    return text;
+}
+
+TEST(BadModels, HullsOfManyCorners) {
+    const std::string text = "<mujoco><asset><mesh name=\"m\" vertex=\"" + roundMesh(300) +
+                             "\"/></asset>\n<worldbody><body><freejoint/>\n<geom type=\"mesh\" mesh=\"m\"/>"
+                             "</body></worldbody></mujoco>";
+    const auto file = writeText(freshFolder("corners") / "m.xml", text);
+    EXPECT_THAT(refusal("mjcf", file),
+                AllOf(HasSubstr("m.xml:3"), HasSubstr("has 300 corners"), HasSubstr("--hull-corners 64")));
+    const Outcome outcome = rigor("import mjcf '" + file.string() + "' --hull-corners 64 --json --out '" +
+                                  (file.parent_path() / "s.json").string() + "'");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Scenario s = scenario::loadScenario(file.parent_path() / "s.json").scenario;
+    const auto& corners = std::get<scenario::ConvexHull>(s.bodies[0].shapes[0].geometry).vertices;
+    ASSERT_EQ(corners.size(), 64u);
+    // 64 points that are spread well over a unit sphere: caps between them are about 0.06 high.
+    const std::string before = "stands out of theirs by at most ";
+    const auto at = outcome.out.find(before);
+    ASSERT_NE(at, std::string::npos) << outcome.out;
+    const double stated = std::stod(outcome.out.substr(at + before.size()));
+    EXPECT_GT(stated, 0.03);
+    EXPECT_LT(stated, 0.1);
+    // The stated distance, by another way: the support of the whole hull less that of the simpler one, over directions.
+    double largest = 0.0;
+    std::istringstream in(roundMesh(2000));
+    std::vector<scenario::Vec3> all;
+    std::istringstream points(roundMesh(300));
+    for (scenario::Vec3 p; points >> p.x >> p.y >> p.z;) all.push_back(p);
+    for (scenario::Vec3 d; in >> d.x >> d.y >> d.z;) {
+        // MuJoCo moves the frame of a mesh to its centre and principal axes; corners of the sphere keep their mutual
+        // distances, so that the supports are compared in the frame of the points that were taken.
+        double whole = -1e300, fewer = -1e300;
+        for (const auto& p : all) whole = std::max(whole, dot(p, d));
+        for (const auto& c : corners) fewer = std::max(fewer, dot(s.bodies[0].shapes[0].pose * c, d));
+        largest = std::max(largest, (whole - fewer) / norm(d));
+    }
+    EXPECT_NEAR(largest, stated, 0.1 * stated);
 }
 
 TEST(BadModels, AnUnknownFormatIsADataSet) {

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <memory>
 #include <set>
-#include <sstream>
 
 #include "scenarios/exchange/tests/tool.hpp"
 #include "scenarios/model/surfaces.hpp"
@@ -141,6 +140,62 @@ TEST(Mjcf, JointsSpringsAndFrictionAreMapped) {
     EXPECT_TRUE(mayCollide(s, findBody(s, "ground"), findBody(s, "tip")));
 }
 
+/// Defaults of classes within classes, a class for the children of a body, and one that an element names itself.
+constexpr const char* kDefaults = R"(<mujoco model="classes">
+  <compiler angle="degree" eulerseq="zyx"/>
+  <default>
+    <geom density="500" friction="0.7"/>
+    <joint damping="0.1"/>
+    <default class="limb">
+      <geom type="capsule" size="0.05 0.2"/>
+      <joint axis="0 1 0" range="-30 60" limited="true"/>
+      <default class="thin"><geom size="0.02 0.1" density="2000"/><joint axis="1 0 0" stiffness="2"/></default>
+    </default>
+    <default class="block"><geom type="box" size="0.1 0.2 0.3" friction="0.2"/></default>
+  </default>
+  <worldbody>
+    <body name="trunk" pos="0 0 2" euler="30 20 10" childclass="block">
+      <freejoint/>
+      <geom name="chest"/>
+      <geom name="head" class="main" size="0.1" pos="0 0 0.4"/>
+      <body name="upper" pos="0.1 0 -0.3" euler="0 90 0" childclass="limb">
+        <joint name="shoulder"/>
+        <geom name="upper"/>
+        <body name="lower" pos="0 0 -0.4">
+          <joint name="elbow" class="thin" range="-10 120"/>
+          <geom name="lower" class="thin"/>
+          <geom name="hand" class="block" size="0.03 0.03 0.03" pos="0 0 -0.1"/>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>)";
+
+TEST(Mjcf, ClassesOfDefaultsWithinClasses) {
+    const auto file = writeText(freshFolder("classes") / "classes.xml", kDefaults);
+    const Scenario s = imported("mjcf", file);
+    compareWithLibrary(file, s);
+    ASSERT_EQ(s.bodies.size(), 3u);
+    ASSERT_EQ(s.joints.size(), 2u);
+    const Body &trunk = s.bodies[0], &upper = s.bodies[1], &lower = s.bodies[2];
+    constexpr double kPi = 3.14159265358979323846;
+    EXPECT_NEAR(trunk.massProperties.mass, 500.0 * (0.048 + 4.0 / 3.0 * kPi * 1e-3), 1e-10);
+    const auto capsule = [&](double r, double h) { return kPi * r * r * (2.0 * h + 4.0 / 3.0 * r); };
+    EXPECT_NEAR(upper.massProperties.mass, 500.0 * capsule(0.05, 0.2), 1e-12);
+    EXPECT_NEAR(lower.massProperties.mass, 2000.0 * capsule(0.02, 0.1) + 500.0 * 2.16e-4, 1e-12);
+    const JointAxis &shoulder = s.joints[0].axes[0], &elbow = s.joints[1].axes[0];
+    EXPECT_NEAR(shoulder.upper, kPi / 3.0, kTolerance);
+    EXPECT_DOUBLE_EQ(shoulder.damping, 0.1);
+    EXPECT_DOUBLE_EQ(shoulder.stiffness, 0.0);
+    EXPECT_NEAR(elbow.upper, 2.0 * kPi / 3.0, kTolerance);
+    EXPECT_DOUBLE_EQ(elbow.stiffness, 2.0);
+    const auto law = [&](std::size_t a, std::size_t b) {
+        return pairCoefficients(s, trunk.shapes[a].material, lower.shapes[b].material).friction;
+    };
+    EXPECT_DOUBLE_EQ(law(0, 1), 0.2);
+    EXPECT_DOUBLE_EQ(law(1, 1), 0.7);
+}
+
 TEST(Mjcf, ReplicasAndFramesAreExpanded) {
     const auto file = writeText(freshFolder("replicas") / "r.xml", R"(<mujoco><worldbody>
       <frame pos="1 0 0" euler="0 0 90">
@@ -264,20 +319,7 @@ TEST(Mjcf, APendulumMovesAsTheHandWrittenOne) {
        "center_of_mass": [0, 0, -0.5], "inertia": [0.02, 0.03, 0.01]}], "joints": [{"name": "pin", "type": "hinge",
        "a": "world", "b": "bob", "anchor": [0, 0, 0], "axis": [0, 1, 0], "spring": {"stiffness": 0, "damping": 0.05}}]})";
     writeText(folder / "hand.json", text);
-    const auto lastLine = [&](const char* name) {
-        const Outcome run = rigor("run " + (folder / name).string() + " -e rigor --csv - 2>/dev/null");
-        std::string line = run.out.substr(run.out.rfind("\n10,") + 1);
-        line.resize(line.find('\n'));
-        return line;
-    };
-    const auto numbers = [](const std::string& line) {
-        std::vector<double> values;
-        std::istringstream in(line);
-        for (std::string cell; std::getline(in, cell, ',');)
-            if (cell != "bob") values.push_back(std::stod(cell));
-        return values;
-    };
-    const auto read = numbers(lastLine("read.json")), hand = numbers(lastLine("hand.json"));
+    const auto read = lastState(folder / "read.json"), hand = lastState(folder / "hand.json");
     ASSERT_EQ(read.size(), 14u);
     ASSERT_EQ(hand.size(), read.size());
     for (std::size_t i = 0; i < read.size(); ++i) EXPECT_NEAR(read[i], hand[i], kTolerance) << i;

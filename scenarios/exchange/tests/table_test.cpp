@@ -24,12 +24,17 @@ struct Attempt {
     std::string reasons;             ///< refusals with file and line
     std::set<std::string> features;  ///< words that `--without` could leave out
     bool isFinal = false;            ///< something is refused that can not be left out
+    bool hasCorners = false;         ///< a hull has more corners than a scenario's, and nothing else is final
 };
 
 Attempt attempt(const std::string& format, const fs::path& file, const std::set<std::string>& without,
-                const fs::path& out) {
-    std::string words;
-    for (const std::string& word : without) words += (words.empty() ? " --without " : ",") + word;
+                const fs::path& out, bool fewerCorners = false) {
+    std::string words = fewerCorners ? " --hull-corners 64" : "";
+    bool isFirst = true;
+    for (const std::string& word : without) {
+        words += (isFirst ? " --without " : ",") + word;
+        isFirst = false;
+    }
     const Outcome outcome =
         rigor("import " + format + " '" + file.string() + "' --json --out '" + out.string() + "'" + words);
     Attempt result;
@@ -48,7 +53,9 @@ Attempt attempt(const std::string& format, const fs::path& file, const std::set<
                           remark.at("element").get<std::string>() +
                           "`: " + remark.at("text").get<std::string>();
         const std::string feature = remark.at("feature").get<std::string>();
-        if (feature.empty())
+        if (remark.at("text").get<std::string>().find("--hull-corners 64") != std::string::npos)
+            result.hasCorners = true;
+        else if (feature.empty())
             result.isFinal = true;
         else
             result.features.insert(feature);
@@ -69,13 +76,16 @@ std::string rowOf(const std::string& format, const std::string& name, const fs::
     Attempt result = attempt(format, file, {}, out);
     const std::string first = result.isImported ? contents(out) : "refused: " + result.reasons;
     std::set<std::string> without;
+    bool fewerCorners = false;
     while (!result.isImported && !result.isFinal) {
         without.insert(result.features.begin(), result.features.end());
-        result = attempt(format, file, without, out);
+        fewerCorners = fewerCorners || result.hasCorners;
+        result = attempt(format, file, without, out, fewerCorners);
     }
     std::string second;
     for (const std::string& word : without) second += (second.empty() ? "without " : ", ") + word;
-    if (!without.empty()) second += ": " + (result.isImported ? contents(out) : "refused: " + result.reasons);
+    if (fewerCorners) second += " and with --hull-corners 64";
+    if (!second.empty()) second += ": " + (result.isImported ? contents(out) : "refused: " + result.reasons);
     return "| `" + name + "` | " + format + " | " + first + " | " + second + " |\n";
 }
 

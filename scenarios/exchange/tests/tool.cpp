@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 namespace rigor::models::testing {
 namespace fs = std::filesystem;
@@ -18,6 +19,11 @@ using scenario::Mat3;
 using scenario::Pose;
 using scenario::Scenario;
 using scenario::Vec3;
+
+Mat3 inertiaInWorld(const Body& b) {
+    const Mat3 r = toMatrix(b.pose.orientation);
+    return r * b.massProperties.inertia * transpose(r);
+}
 
 namespace {
 
@@ -30,10 +36,6 @@ std::string quoted(const fs::path& file) {
 }
 Pose poseOf(const Scenario& s, int body) {
     return body == kNone ? Pose{} : s.bodies[static_cast<std::size_t>(body)].pose;
-}
-Mat3 inertiaInWorld(const Body& b) {
-    const Mat3 r = toMatrix(b.pose.orientation);
-    return r * b.massProperties.inertia * transpose(r);
 }
 std::string nameOf(const Scenario& s, int body) {
     return body == kNone ? "world" : s.bodies[static_cast<std::size_t>(body)].name;
@@ -130,6 +132,18 @@ std::string refusal(const std::string& format, const fs::path& file, const std::
     EXPECT_EQ(outcome.code, 2) << file << ": " << outcome.err;
     EXPECT_EQ(outcome.out, "") << file;
     return outcome.err;
+}
+
+std::vector<double> lastState(const fs::path& scenario) {
+    const std::string out = rigor("run " + quoted(scenario) + " -e rigor --csv -").out;
+    std::string line = out.substr(out.rfind("\n10,") + 1);
+    line.resize(line.find('\n'));
+    std::vector<double> values;
+    std::istringstream in(line);
+    int column = 0;
+    for (std::string cell; std::getline(in, cell, ','); ++column)
+        if (column != 1) values.push_back(std::stod(cell));
+    return values;
 }
 
 fs::path modelsFolder() {

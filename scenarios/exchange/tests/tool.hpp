@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "scenarios/loader/loader.hpp"
 
@@ -36,8 +37,14 @@ scenario::Scenario imported(const std::string& format, const std::filesystem::pa
 std::string refusal(const std::string& format, const std::filesystem::path& file,
                     const std::string& options = "");
 
+/// Simulates a scenario of one body whose duration is 10 s; its last line of numbers: t, pose, velocities.
+std::vector<double> lastState(const std::filesystem::path& scenario);
+
 /// RIGOR_DATA/models, or "" where it is not given.
 std::filesystem::path modelsFolder();
+
+/// Inertia of a body about its centre, in the axes of the world.
+scenario::Mat3 inertiaInWorld(const scenario::Body& body);
 
 void expectNear(const scenario::Vec3& a, const scenario::Vec3& b, double tolerance, const std::string& what);
 void expectNear(const scenario::Mat3& a, const scenario::Mat3& b, double tolerance, const std::string& what);

@@ -243,7 +243,7 @@ class Robot {
             } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(collision->geometry.get())) {
                 const Place place = linkPlace(link.name);
                 const auto parts = readMesh(assets_.find(mesh->filename, place), convert(mesh->scale), place);
-                addMesh(builder_, report_, body, parts, at, surface, 0, options_.hull, place);
+                addMesh(builder_, report_, body, parts, at, surface, 0, options_, place);
             } else {
                 report_.refuse("<collision>", linkPlace(link.name),
                                "a collision without a shape that is known");

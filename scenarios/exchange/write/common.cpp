@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <cctype>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "scenarios/exchange/write/write.hpp"
 
@@ -27,6 +30,27 @@ std::string escaped(const std::string& text) {
             out += c;
     }
     return out;
+}
+
+std::string besideName(const Scenario& s, const std::string& part) {
+    std::string out = s.name + "_" + part;
+    for (char& c : out)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+    return out;
+}
+
+std::string heightBytes(const scenario::HeightField& field, double lowest, double range) {
+    const std::int32_t size[2] = {field.columns, field.rows};
+    std::vector<float> heights;
+    for (int i = 0; i < field.columns; ++i)
+        for (int k = 0; k < field.rows; ++k) {
+            const double height = field.heights[static_cast<std::size_t>(k * field.columns + i)];
+            heights.push_back(static_cast<float>((height - lowest) / range));
+        }
+    std::string bytes(sizeof size + heights.size() * sizeof(float), '\0');
+    std::memcpy(bytes.data(), size, sizeof size);
+    std::memcpy(bytes.data() + sizeof size, heights.data(), heights.size() * sizeof(float));
+    return bytes;
 }
 
 Principal principalOf(const Mat3& tensor) {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "scenarios/exchange/common/builder.hpp"
+#include "scenarios/exchange/write/coordinates.hpp"
 #include "scenarios/exchange/write/write.hpp"
 
 namespace rigor::models {
@@ -33,16 +34,17 @@ constexpr std::size_t kMostFilters = 31;   ///< bits of contype
 constexpr std::size_t kMostPairs = 20000;  ///< explicit pairs of shapes
 constexpr double kConsistent = 1e-9;       ///< [m/s, rad/s] velocities that joints allow
 
-bool isEdge(JointType type) {
-    return type == JointType::Hinge || type == JointType::Slider || type == JointType::Ball ||
-           type == JointType::Fixed;
+/// True for joints that can connect a body to the one above it.
+bool isEdge(const Scenario& s, const Joint& j) {
+    return coordinatesOf(s, j, false).has_value();
 }
 
 class MjcfWriter {
   public:
-    MjcfWriter(const Scenario& s, Report& report) : s_(s), report_(report), place_{s.name, 0} {
+    MjcfWriter(const Scenario& s, Report& report, FilesBeside& beside)
+        : s_(s), report_(report), beside_(beside), place_{s.name, 0} {
         std::vector<bool> edges;
-        for (const Joint& j : s.joints) edges.push_back(isEdge(j.type));
+        for (const Joint& j : s.joints) edges.push_back(isEdge(s, j));
         tree_ = treeOf(s, edges);
     }
 
@@ -117,22 +119,33 @@ class MjcfWriter {
         const TreeJoint& t = tree_.above[static_cast<std::size_t>(index)];
         if (t.joint == kNone) return indent + "<freejoint/>\n";
         const Joint& j = s_.joints[static_cast<std::size_t>(t.joint)];
-        if (j.type == JointType::Fixed) return "";
         const Vec3 anchor = t.isReversed ? j.anchorA : j.anchorB;
-        const Vec3 axis = t.isReversed ? -j.axisA : j.axisB;
-        const char* type = j.type == JointType::Hinge    ? "hinge"
-                           : j.type == JointType::Slider ? "slide"
-                                                         : "ball";
-        std::string out = indent + "<joint name=\"" + escaped(j.name) + "\" type=\"" + type + "\" pos=\"" +
-                          digits(anchor) + "\"";
-        if (j.type != JointType::Ball) out += " axis=\"" + digits(axis) + "\"";
-        return out + control(j) + "/>\n";
+        static constexpr const char* kTypes[] = {"slide", "hinge", "ball"};
+        std::string out;
+        for (const Coordinate& c : coordinates(index)) {
+            out += indent + "<joint name=\"" + escaped(j.name) + c.suffix + "\" type=\"" + kTypes[c.kind] +
+                   "\" pos=\"" + digits(anchor) + "\"";
+            if (c.kind != Coordinate::Ball) out += " axis=\"" + digits(c.axis) + "\"";
+            out += control(j, c) + "/>\n";
+        }
+        return out;
     }
 
-    std::string control(const Joint& j) {
-        const JointAxis& a = j.axes[0];
+    /// Coordinates of the joint above a body.
+    std::vector<Coordinate> coordinates(int index) {
+        const TreeJoint& t = tree_.above[static_cast<std::size_t>(index)];
+        const Joint& j = s_.joints[static_cast<std::size_t>(t.joint)];
+        const auto found = coordinatesOf(s_, j, t.isReversed);
+        if (!found)
+            report_.leavesOut("six_dof_joints", "joints", place_,
+                              "the joint '" + j.name + "', a six_dof whose first body hangs on the second");
+        return found.value_or(std::vector<Coordinate>{});
+    }
+
+    std::string control(const Joint& j, const Coordinate& c) {
+        const JointAxis& a = c.control;
         const std::string what = "the joint '" + j.name + "'";
-        if (j.type == JointType::Ball && (a.mode == AxisMode::Limited || a.hasSpring())) {
+        if (c.kind == Coordinate::Ball && (a.mode == AxisMode::Limited || a.hasSpring())) {
             report_.leavesOut("ball_limits", "axes", place_, "a limit or spring of the swing of " + what);
             return "";
         }
@@ -165,7 +178,7 @@ class MjcfWriter {
         else
             report_.leavesOut(std::string(jointName(j.type)) + "_joints", "joints", place_,
                               std::string("the joint '") + j.name + "', a " + jointName(j.type) +
-                                  (isEdge(j.type) ? " that closes a loop" : ""));
+                                  (isEdge(s_, j) ? " that closes a loop" : " of these coordinates"));
     }
 
     void tendon(const Joint& j) {
@@ -233,15 +246,35 @@ class MjcfWriter {
             kind = " type=\"mesh\" mesh=\"" + name + "\"";
             report_.changed("hull", place_, "MuJoCo keeps the corners of hulls in single precision");
         }
+        if (const auto* g = std::get_if<scenario::HeightField>(&shape.geometry)) {
+            kind = " type=\"hfield\" hfield=\"" + heightField(*g, geomName(index, number), pose) + "\"";
+            report_.changed("height_field", place_,
+                            "heights are in files beside the model, in single precision");
+        }
         if (kind.empty()) {
-            report_.leavesOut(
-                std::string(geometryName(shape.geometry, 3)) + "_shapes", "shapes", place_,
-                std::string("a ") + geometryName(shape.geometry, 3) + " of '" + body(index).name + "'");
+            const bool isMesh = std::holds_alternative<scenario::TriangleMesh>(shape.geometry);
+            report_.leavesOut(std::string(geometryName(shape.geometry, 3)) + "_shapes", "shapes", place_,
+                              std::string("a ") + geometryName(shape.geometry, 3) + " of '" +
+                                  body(index).name + "'" +
+                                  (isMesh ? ": MuJoCo collides a mesh as its convex hull" : ""));
             return "";
         }
         return indent + "<geom name=\"" + geomName(index, number) + "\"" + kind + " pos=\"" +
                digits(pose.position) + "\" quat=\"" + digits(pose.orientation) + "\"" + surface(shape) +
                filter(index, shape) + "/>\n";
+    }
+    /// Puts the heights into a file and moves `pose` to the model's frame, whose z is up and 0 at the lowest height.
+    std::string heightField(const scenario::HeightField& field, const std::string& geom, Pose& pose) {
+        const auto [low, high] = std::minmax_element(field.heights.begin(), field.heights.end());
+        const double lowest = *low, range = *high > lowest ? *high - lowest : 1.0;
+        const std::string name = geom + "_heights", file = besideName(s_, name) + ".bin";
+        beside_[file] = heightBytes(field, lowest, range);
+        assets_ += "    <hfield name=\"" + name + "\" file=\"" + file + "\" size=\"" +
+                   digits({0.5 * field.spacingZ * (field.rows - 1),
+                           0.5 * field.spacingX * (field.columns - 1), range, field.thickness}) +
+                   "\"/>\n";
+        pose = pose * Pose{{0.0, lowest, 0.0}, {0.5, -0.5, -0.5, -0.5}};
+        return name;
     }
     static Quat turnOfZ(const Vec3& n) {
         const Vec3 axis = cross({0.0, 0.0, 1.0}, n);
@@ -420,16 +453,18 @@ class MjcfWriter {
                            digits(rotateInverse(b.pose.orientation, b.angularVelocity)));
             } else if (b.type == BodyType::Dynamic) {
                 const Joint& j = s_.joints[static_cast<std::size_t>(t.joint)];
-                const Vec3 axis = rotate(b.pose.orientation, t.isReversed ? -j.axisA : j.axisB);
                 const Vec3 anchor = b.pose * (t.isReversed ? j.anchorA : j.anchorB);
                 Vec3 spin = spinOf(index) - spinOf(parent),
                      slide = velocityAt(index, anchor) - velocityAt(parent, anchor);
-                if (j.type == JointType::Ball) {
-                    add(q, "1 0 0 0");
-                    add(v, digits(rotateInverse(b.pose.orientation, spin)));
-                    spin = {};
-                } else if (j.type != JointType::Fixed) {
-                    Vec3& along = j.type == JointType::Hinge ? spin : slide;
+                for (const Coordinate& c : coordinates(index)) {
+                    if (c.kind == Coordinate::Ball) {
+                        add(q, "1 0 0 0");
+                        add(v, digits(rotateInverse(b.pose.orientation, spin)));
+                        spin = {};
+                        continue;
+                    }
+                    const Vec3 axis = rotate(b.pose.orientation, c.axis);
+                    Vec3& along = c.kind == Coordinate::Turn ? spin : slide;
                     add(q, "0");
                     add(v, digits({dot(along, axis)}));
                     along = along - dot(along, axis) * axis;
@@ -445,6 +480,7 @@ class MjcfWriter {
 
     const Scenario& s_;
     Report& report_;
+    FilesBeside& beside_;
     Place place_;
     JointTree tree_;
     std::vector<Filter> filters_;
@@ -455,9 +491,9 @@ class MjcfWriter {
 
 }  // namespace
 
-std::string mjcfText(const Scenario& scenario, Report& report) {
+std::string mjcfText(const Scenario& scenario, Report& report, FilesBeside& beside) {
     refuseCommon(scenario, report);
-    MjcfWriter writer(scenario, report);
+    MjcfWriter writer(scenario, report, beside);
     writer.loops();
     return writer.write();
 }

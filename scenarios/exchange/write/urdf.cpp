@@ -3,10 +3,13 @@
 //
 // Scenarios as URDF: a tree from the link "world". The frame of a link is that of the joint above it, so that links
 // other than free ones have other frames than the scenario's bodies; masses, shapes and joints are where they were.
+#include <array>
 #include <cmath>
 
 #include "scenarios/exchange/common/builder.hpp"
+#include "scenarios/exchange/write/coordinates.hpp"
 #include "scenarios/exchange/write/write.hpp"
+#include "scenarios/model/hull.hpp"
 
 namespace rigor::models {
 namespace {
@@ -21,8 +24,31 @@ using scenario::Pose;
 using scenario::Scenario;
 using scenario::Vec3;
 
-bool isLinkJoint(JointType type) {
-    return type == JointType::Hinge || type == JointType::Slider || type == JointType::Fixed;
+bool isLinkJoint(const Joint& j) {
+    return j.type == JointType::Hinge || j.type == JointType::Slider || j.type == JointType::Fixed ||
+           isPlanar(j);
+}
+
+/// A surface as an OBJ file.
+std::string objText(const std::vector<Vec3>& vertices, const std::vector<std::array<int, 3>>& triangles) {
+    std::string out;
+    for (const Vec3& v : vertices) out += "v " + digits(v) + "\n";
+    for (const auto& t : triangles) {
+        out += "f";
+        for (const int i : t) out += " " + std::to_string(i + 1);
+        out += "\n";
+    }
+    return out;
+}
+
+/// The surface of the hull of points, as triangles.
+scenario::TriangleMesh surfaceOf(const scenario::ConvexHull& shape) {
+    const scenario::HullMesh hull = scenario::convexHull3d(shape.vertices);
+    scenario::TriangleMesh mesh{hull.vertices, {}};
+    for (const auto& face : hull.faces)
+        for (std::size_t k = 2; k < face.size(); ++k)
+            mesh.triangles.push_back({face[0], face[k - 1], face[k]});
+    return mesh;
 }
 
 /// Roll, pitch and yaw of R = Rz(yaw) Ry(pitch) Rx(roll); at a pitch of a quarter turn the yaw is 0.
@@ -40,9 +66,10 @@ std::string origin(const Pose& pose) {
 
 class UrdfWriter {
   public:
-    UrdfWriter(const Scenario& s, Report& report) : s_(s), report_(report), place_{s.name, 0} {
+    UrdfWriter(const Scenario& s, Report& report, FilesBeside& beside)
+        : s_(s), report_(report), beside_(beside), place_{s.name, 0} {
         std::vector<bool> edges;
-        for (const Joint& j : s.joints) edges.push_back(isLinkJoint(j.type));
+        for (const Joint& j : s.joints) edges.push_back(isLinkJoint(j));
         tree_ = treeOf(s, edges);
         frames_.resize(s.bodies.size());
         for (const int index : tree_.order) {
@@ -74,7 +101,7 @@ class UrdfWriter {
             const Joint& j = s_.joints[static_cast<std::size_t>(index)];
             report_.leavesOut(std::string(jointName(j.type)) + "_joints", "joints", place_,
                               std::string("the joint '") + j.name + "', a " + jointName(j.type) +
-                                  (isLinkJoint(j.type) ? " that closes a loop" : ""));
+                                  (isLinkJoint(j) ? " that closes a loop" : ""));
         }
         for (const Body& b : s_.bodies) {
             if (b.type == BodyType::Kinematic)
@@ -104,11 +131,20 @@ class UrdfWriter {
                    "\" ixz=\"" + digits({i(0, 2)}) + "\" iyy=\"" + digits({i(1, 1)}) + "\" iyz=\"" +
                    digits({i(1, 2)}) + "\" izz=\"" + digits({i(2, 2)}) + "\"/>\n    </inertial>\n";
         }
-        for (const scenario::Shape& shape : b.shapes) out += collision(shape, inFrame, b);
+        for (std::size_t k = 0; k < b.shapes.size(); ++k) out += collision(b.shapes[k], inFrame, b, k);
         return out + "  </link>\n";
     }
 
-    std::string collision(const scenario::Shape& shape, const Pose& inFrame, const Body& b) {
+    /// A surface as a file beside the model.
+    std::string meshFile(const scenario::TriangleMesh& mesh, const std::string& part) {
+        const std::string file = besideName(s_, part) + ".obj";
+        beside_[file] = objText(mesh.vertices, mesh.triangles);
+        report_.changed("mesh", place_, "hulls and meshes are files beside the model");
+        return "<mesh filename=\"" + file + "\"/>";
+    }
+
+    std::string collision(const scenario::Shape& shape, const Pose& inFrame, const Body& b,
+                          std::size_t number) {
         Pose pose = inFrame * shape.pose;
         std::string kind;
         if (const auto* g = std::get_if<scenario::Sphere>(&shape.geometry))
@@ -120,6 +156,10 @@ class UrdfWriter {
                    digits({2.0 * g->halfLength}) + "\"/>";
             pose = pose * inverse(SceneBuilder::fromZ());
         }
+        const std::string part = b.name + "_" + std::to_string(number);
+        if (const auto* g = std::get_if<scenario::ConvexHull>(&shape.geometry))
+            kind = meshFile(surfaceOf(*g), part);
+        if (const auto* g = std::get_if<scenario::TriangleMesh>(&shape.geometry)) kind = meshFile(*g, part);
         if (kind.empty()) {
             report_.leavesOut(std::string(geometryName(shape.geometry, 3)) + "_shapes", "shapes", place_,
                               std::string("a ") + geometryName(shape.geometry, 3) + " of '" + b.name + "'");
@@ -142,14 +182,17 @@ class UrdfWriter {
             const scenario::JointAxis& a = j->axes[0];
             const bool isLimited =
                 a.mode == AxisMode::Limited && (a.lower > -kUnlimited || a.upper < kUnlimited);
-            type = j->type == JointType::Slider ? "prismatic" : isLimited ? "revolute" : "continuous";
+            type = j->type == JointType::Slider   ? "prismatic"
+                   : j->type == JointType::SixDof ? "planar"
+                   : isLimited                    ? "revolute"
+                                                  : "continuous";
             inner += "    <axis xyz=\"" + digits(t.isReversed ? -j->axisA : j->axisB) + "\"/>\n";
-            if (type != "continuous")
+            if (type == "prismatic" || type == "revolute")
                 inner += "    <limit lower=\"" +
                          digits({isLimited ? std::max(a.lower, -kUnlimited) : -kUnlimited}) + "\" upper=\"" +
                          digits({isLimited ? std::min(a.upper, kUnlimited) : kUnlimited}) +
                          "\" effort=\"0\" velocity=\"0\"/>\n";
-            inner += dynamics(*j);
+            if (type != "planar") inner += dynamics(*j);
         }
         return "  <joint name=\"" + (j ? escaped(j->name) : escaped(body(index).name) + "_base") +
                "\" type=\"" + type + "\">\n    " + origin(inverse(parent) * frame(index)) +
@@ -172,6 +215,7 @@ class UrdfWriter {
 
     const Scenario& s_;
     Report& report_;
+    FilesBeside& beside_;
     Place place_;
     JointTree tree_;
     std::vector<Pose> frames_;
@@ -179,9 +223,9 @@ class UrdfWriter {
 
 }  // namespace
 
-std::string urdfText(const Scenario& scenario, Report& report) {
+std::string urdfText(const Scenario& scenario, Report& report, FilesBeside& beside) {
     refuseCommon(scenario, report);
-    return UrdfWriter(scenario, report).write();
+    return UrdfWriter(scenario, report, beside).write();
 }
 
 }  // namespace rigor::models

@@ -5,6 +5,7 @@
 // `--without` names it.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,10 +16,18 @@
 
 namespace rigor::models {
 
-/// MJCF. Velocities become the keyframe "start".
-std::string mjcfText(const scenario::Scenario& scenario, Report& report);
-/// URDF; bodies that nothing holds float from the link "world".
-std::string urdfText(const scenario::Scenario& scenario, Report& report);
+/// Files that a model refers to, by their names in the model's own folder.
+using FilesBeside = std::map<std::string, std::string>;
+
+/// MJCF. Velocities become the keyframe "start", height fields files beside the model.
+std::string mjcfText(const scenario::Scenario& scenario, Report& report, FilesBeside& beside);
+/// URDF; bodies that nothing holds float from the link "world", hulls and meshes become files beside the model.
+std::string urdfText(const scenario::Scenario& scenario, Report& report, FilesBeside& beside);
+/// Name of a file beside the model without its ending: the scenario's and `part`, of letters that any system takes.
+std::string besideName(const scenario::Scenario& scenario, const std::string& part);
+/// MuJoCo's binary file of heights: rows and columns as integers, then (height - lowest) / range in single precision.
+/// The model's rows lie along the scenario's x.
+std::string heightBytes(const scenario::HeightField& field, double lowest, double range);
 
 /// A joint as an edge of the tree of bodies, towards the child.
 struct TreeJoint {
