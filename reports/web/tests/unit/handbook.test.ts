@@ -20,7 +20,7 @@ import { makeSite } from '../../src/handbook/site/site.ts';
 const root = process.env.RIGOR_SOURCE_DIR as string;
 const site = makeSite(root, null, []);
 const added = (path: string) =>
-  /^(assets|pictures)\//.test(path) || /^en\/(reference\/[a-z-]+|gallery)\.html$/.test(path);
+  /^(assets|pictures)\//.test(path) || /^(en|zh)\/(reference\/[a-z-]+|gallery)\.html$/.test(path);
 
 test('every quote, scene and exercise of the handbook is there, in both languages alike', () => {
   assert.deepEqual(translationErrors(site), []);
