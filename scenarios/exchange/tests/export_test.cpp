@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What export writes into several joints or into files beside the model: six_dof joints, height fields, hulls and meshes.
+// Export writes a six_dof joint as several joints, and height fields, hulls and meshes into files beside the model; they
+// come back as they were.
 #include <gmock/gmock.h>
 #include <mujoco/mujoco.h>
 

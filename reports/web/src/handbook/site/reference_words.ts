@@ -40,7 +40,7 @@ interface ReferenceWords {
   report: string;
   noReport: string;
   command: string;
-  part: string; // of the table of contents
+  part: string; // title of this part in the table of contents
 }
 
 export const referenceWords: Record<Language, ReferenceWords> = {
