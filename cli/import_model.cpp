@@ -15,6 +15,7 @@
 #include "cli/command.hpp"
 #include "scenarios/exchange/common/formats.hpp"
 #include "scenarios/exchange/common/text.hpp"
+#include "scenarios/loader/data_folder.hpp"
 #include "validation/runner/scratch_folder.hpp"
 #include "validation/runner/start_program.hpp"
 
@@ -31,9 +32,11 @@ fs::path readerOf(const models::Format& format) {
     for (const fs::path& folder :
          {ownBinary().parent_path() / "readers", ownBinary().parent_path() / "../lib/rigor/readers"})
         if (fs::exists(folder / name)) return folder / name;
-    throw std::invalid_argument(std::string("this build reads no ") + format.name +
-                                " files: it lacks the Debian packages " + format.packages +
-                                "; ./rigor --with models installs them");
+    const std::string how = scenario::sourceFolder().empty()
+                                ? "the Debian package rigor-readers has its reader"
+                                : std::string("it lacks the Debian packages ") + format.packages +
+                                      "; ./rigor --with models installs them";
+    throw std::invalid_argument(std::string("this build reads no ") + format.name + " files: " + how);
 }
 
 /// The answer of the reader; a reader that ends in another way is a refusal with its last message.
