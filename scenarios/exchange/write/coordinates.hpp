@@ -15,7 +15,7 @@ struct Coordinate {
     enum Kind { Slide, Turn, Ball } kind;
     scenario::Vec3 axis;            ///< unit, in the child's body frame; unused for Ball
     scenario::JointAxis control{};  ///< limits, spring and motor
-    const char* suffix = "";        ///< of its name: "" for the one that carries the joint's own
+    const char* suffix = "";        ///< end of its name; "" for the one that has the joint's own
 };
 
 /// Coordinates of a joint of the tree, the first is the outermost; none for `Fixed`. Nothing where they can not be
