@@ -49,7 +49,7 @@ export const referenceWords: Record<Language, ReferenceWords> = {
     specs: 'Engines and their settings',
     specsText:
       'An engine is named by a spec, <code>NAME:key=value,key=value</code>. These engines were installed where this page was made; <code>./rigor list engines</code> shows yours.',
-    specColumns: ['key', 'default', 'matched', 'meaning and values'],
+    specColumns: ['key', 'default value', 'if matched', 'meaning and values'],
     facts: (version, precisions, presets) => `version ${version}; precision ${precisions}; presets ${presets}`,
     algorithms: 'Algorithms of the engine',
     algorithmsText:
@@ -92,7 +92,7 @@ export const referenceWords: Record<Language, ReferenceWords> = {
     specs: '各引擎及其设置',
     specsText:
       '引擎用规格串指定：<code>NAME:key=value,key=value</code>。下面是生成本页的机器上装有的引擎；<code>./rigor list engines</code> 列出你自己的。',
-    specColumns: ['键', '默认值', 'matched 预设', '含义与取值（英文）'],
+    specColumns: ['键', '默认值', '匹配时', '含义与取值（英文）'],
     facts: (version, precisions, presets) => `版本 ${version}；精度 ${precisions}；预设 ${presets}`,
     algorithms: '本引擎的算法',
     algorithmsText: '自带引擎在一步的每个阶段可选的算法。用规格串选择，例如 rigor:solver=nsgs,substeps=4。说明为英文。',
