@@ -28,6 +28,9 @@ const documents: Document[] = [
   { file: 'validation/results/README.md', page: 'results', title: 'The store of results' },
   { file: 'validation/accuracy/README.md', page: 'accuracy' },
   { file: 'engine/LIMITS.md', page: 'limits' },
+  { file: 'scenarios/exchange/README.md', page: 'models' },
+  { file: 'scenarios/exchange/MODELS.md', page: 'models-tried' },
+  { file: 'reports/python/README.md', page: 'python' },
 ];
 
 /** Output of the program by its arguments: both languages show the same tables. */
