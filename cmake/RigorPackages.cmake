@@ -7,7 +7,7 @@
 #     rigor  rigor-adapters-<engine>  rigor-readers  rigor-engine-dev  rigor-dev  rigor-doc  python3-rigor
 #
 # Whoever hands packages to others is their maintainer: -DRIGOR_MAINTAINER="Name <address>", or DEBFULLNAME and DEBEMAIL as
-# for Debian's own tools. The default is an address that reaches nobody (RFC 2606).
+# for Debian's own tools. The default is an address that cannot be reached (RFC 2606).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME rigor)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
