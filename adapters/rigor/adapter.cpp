@@ -18,7 +18,7 @@
 namespace rigor::adapter {
 namespace {
 
-/// What the engine's preset of that name sets, with its own number of iterations.
+/// The settings of the engine's preset of that name, with its own number of iterations.
 Preset enginePreset(const char* name) {
     using Def = engine::WorldDef<engine::Space3d>;
     const Def none, def = Def::preset(name);

@@ -29,10 +29,6 @@ namespace {
 
 constexpr std::size_t kRowGrain = 16;  ///< least number of contacts for a task: some microseconds of work
 
-/// Rounding of coordinates of order one metre: closer than this is touching.
-template <class R>
-constexpr R kTouching = R(64) * std::numeric_limits<R>::epsilon();
-
 /// Rows of the contact block of a point.
 template <class S>
 std::size_t contactRows(const Contact<S>& contact) {
@@ -98,21 +94,6 @@ bool preparePoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Conta
     return false;
 }
 
-template <class S>
-PointFrame<S> frameOf(const typename Contact<S>::Point& point, const typename S::Vec& normal) {
-    return {point.rA, point.rB, normal};
-}
-
-/// Places the points of a contact, and finds what the rows of those that it had in the last step lag by.
-template <class S>
-void placeWithLags(const BodyArrays<S>& bodies, Contact<S>& contact, RowLags<S>& lags) {
-    const auto last = contact.points;
-    placePoints(bodies, contact);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
-        lags[i] = rowLag<S>(frameOf<S>(last[i], contact.lastNormal),
-                            frameOf<S>(contact.points[i], contact.manifold.normal), bodies, contact);
-}
-
 /// Decides which points get rows. `lags`: none in steps whose rows are not those of a midpoint.
 template <class S>
 void prepareRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, bool stepBegins,
@@ -121,7 +102,7 @@ void prepareRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, bool s
     contact.blocks = 0;
     if (!contact.placed) {
         if (lags != nullptr && !contact.lastNormal.isZero(0))
-            placeWithLags(bodies, contact, *lags);
+            placeWithLags<S>(bodies, contact, *lags);
         else
             placePoints(bodies, contact);
     }
@@ -188,24 +169,10 @@ void makePointMoments(const BodyArrays<S>& bodies, const ContactStep<S>& step, c
         }
 }
 
-/// Fraction of the step in which the gap of a point closes that lands in it at its own time; 0: none.
-template <class S>
-typename S::Real landingTime(const BodyArrays<S>& bodies, const ContactStep<S>& step,
-                             const Contact<S>& contact, const typename Contact<S>::Point& point,
-                             const RowLag<S>& lag) {
-    using Real = typename S::Real;
-    if (step.mayLand.empty() || point.separation <= kTouching<Real> || contact.speculative) return 0;
-    if (step.bounces && contact.coefficients.restitution > 0) return 0;
-    const std::uint32_t body = bodies.invMass[contact.bodyA] > 0 ? contact.bodyA : contact.bodyB;
-    const Real closes = -step.h * (point.approach + lag.normal);
-    if (!step.mayLand[body] || closes < Real(0.25) * step.restingGap || point.separation >= closes) return 0;
-    return point.separation / closes;
-}
-
 /// Fills a contact block, but for its first row, and its rows.
 template <class S>
 void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
-                   std::size_t index, const RowLag<S>& lag, Block<S>& block, Row<S>* rows) {
+                   std::size_t index, Block<S>& block, Row<S>* rows) {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
     const typename Contact<S>::Point& point = contact.points[index];
@@ -227,23 +194,17 @@ void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, cons
     };
     Row<S>& normal = rows[0];
     normal = makeRow(n);
-    normal.error = point.separation + step.h * lag.normal;
+    normal.error = point.separation;
     const Real restitution = step.bounces ? contact.coefficients.restitution : Real(0);
     const bool bounces = restitution > 0 && point.approach < -step.restitutionThreshold;
     // A bounce that is still ahead is continuous collision's.
     block.restitution = bounces && point.rebound == 0 ? restitution : Real(0);
     if (bounces && point.rebound == 0)
         normal.bias = restitution * point.approach;
-    else if (landingTime<S>(bodies, step, contact, point, lag) > 0)
-        normal.bias = 0;
     else if (point.separation > (point.impact ? Real(0) : step.gapSlop))
         normal.bias = point.separation / step.h;
     normal.relaxedBias = normal.bias;
     if (normal.bias == 0) setPenetrationBias(step, block, point.separation, normal);
-    if (lag.normal != 0 && block.restitution == 0) {
-        normal.bias += lag.normal;
-        normal.relaxedBias += lag.normal;
-    }
     normal.impulse = step.warmStart * contact.impulses[index].normal;
     if (block.rows == 1) return;
 
@@ -252,33 +213,11 @@ void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, cons
         rows[1 + i] = makeRow(basis[i]);
         rows[1 + i].impulse = step.warmStart * basis[i].dot(contact.impulses[index].friction);
         if (contact.driven) driveRow(contact, rows[1 + i]);
-        const Real slip = lag.slip.dot(basis[i]);
-        if (slip == 0) continue;
-        rows[1 + i].bias += slip;
-        rows[1 + i].relaxedBias += slip;
     }
     const Row<S>* t = rows + 1;
     block.k11 = rowCoupling<S>(t[0], t[0], block);
     block.k12 = S::tangents > 1 ? rowCoupling<S>(t[0], t[S::tangents - 1], block) : Real(0);
     block.k22 = S::tangents > 1 ? rowCoupling<S>(t[S::tangents - 1], t[S::tangents - 1], block) : Real(1);
-}
-
-}  // namespace
-
-namespace {
-
-/// A slip u at the end of a step plus this bias has the direction of the mean slip, and the length of u: a
-/// contact sticks where it would without. Where the slip turns far or nearly ends within the step there is no
-/// bias: the mean says little then, and the iteration that renews the bias might not converge.
-template <class R, int N>
-Eigen::Matrix<R, N, 1> slipBias(const Eigen::Matrix<R, N, 1>& before, const Eigen::Matrix<R, N, 1>& after) {
-    const R length = after.norm(), first = before.norm();
-    if (!(length > R(0.1) * first) || !(first > 0)) return Eigen::Matrix<R, N, 1>::Zero();
-    const R cosine = before.dot(after) / (first * length);
-    const R share = std::min({R(1), R(5) * (length / first - R(0.1)), R(4) * (cosine - R(0.5))});
-    if (!(share > 0)) return Eigen::Matrix<R, N, 1>::Zero();
-    const Eigen::Matrix<R, N, 1> mean = before + after;
-    return share * (mean * (length / mean.norm()) - after);
 }
 
 }  // namespace
@@ -296,7 +235,6 @@ template <class S>
 void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodies, const ContactStep<S>& step,
                                   ConstraintRows<S>& rows, const Tasks& tasks) {
     lags_.assign(step.rowsLag ? contacts.size() : 0, {});
-    const RowLags<S> none{};
     tasks.forEach(contacts.size(), kRowGrain, [&](std::size_t k) {
         if (contacts[k].islands == islands_)
             prepareRows<S>(bodies, step, stepBegins_, contacts[k], lags_.empty() ? nullptr : &lags_[k]);
@@ -325,8 +263,9 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
             if (contact.block[i] == kNullIndex) continue;
             Block<S>& block = rows.blocks[contact.block[i]];
             block.first = row;
-            const RowLag<S>& lag = (lags_.empty() ? none : lags_[k])[i];
-            makePointRows<S>(bodies, step, contact, i, lag, block, rows.rows.data() + row);
+            makePointRows<S>(bodies, step, contact, i, block, rows.rows.data() + row);
+            if (!lags_.empty())
+                addLag<S>(bodies, step, contact, i, lags_[k][i], block, rows.rows.data() + row);
             if (contact.coefficients.hasMoments())
                 makePointMoments<S>(bodies, step, contact, i, &block, rows.rows.data() + row + block.rows);
             row += static_cast<std::uint32_t>(rowsPerPoint(contact));
@@ -334,74 +273,6 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
     });
     findSlips(contacts, bodies, step, rows);
     findLandings(contacts, bodies, step);
-}
-
-/// Slips that forces make and unmake within a step are left out: contacts that stick. In 2D all slips of a
-/// contact have one direction.
-template <class S>
-void RowContacts<S>::findSlips(const ContactList<S>& contacts, const BodyArrays<S>& bodies,
-                               const ContactStep<S>& step, const ConstraintRows<S>& rows) {
-    slips_.clear();
-    if (S::dim == 2 || !step.meanSlip) return;
-    const Real slowest = Real(0.05) * step.restingGap / step.h;
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
-        const Contact<S>& contact = contacts[k];
-        for (std::size_t i = 0; contact.blocks > 0 && contact.islands == islands_ && i < contact.block.size();
-             ++i) {
-            if (contact.block[i] == kNullIndex) continue;
-            const Block<S>& block = rows.blocks[contact.block[i]];
-            if (block.rows < 2) continue;
-            Slip slip{contact.block[i], {}, {}};
-            const auto basis = tangentBasis<S>(contact.manifold.normal);
-            for (std::size_t t = 0; t < slip.before.size(); ++t) {
-                const Row<S>& row = rows.rows[block.first + 1 + t];
-                slip.surface[t] = row.bias;
-                slip.before[t] = rowVelocity<S>(row, bodies.velocity[block.a], bodies.velocity[block.b]);
-                if (row.bias != 0) slip.before[t] += row.bias;
-                if (step.rowsLag) slip.before[t] -= Real(2) * lags_[k][i].slip.dot(basis[t]);
-            }
-            const Real first = slip.before.front(), second = slip.before.back();
-            if (first * first + second * second > slowest * slowest) slips_.push_back(slip);
-        }
-    }
-}
-
-template <class S>
-void RowContacts<S>::findLandings(const ContactList<S>& contacts, const BodyArrays<S>& bodies,
-                                  const ContactStep<S>& step) {
-    landings_.clear();
-    if (step.mayLand.empty() || lags_.empty()) return;
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
-        const Contact<S>& contact = contacts[k];
-        if (contact.islands != islands_ || contact.blocks == 0) continue;
-        for (std::size_t i = 0; i < contact.block.size(); ++i) {
-            if (contact.block[i] == kNullIndex) continue;
-            const Real time = landingTime<S>(bodies, step, contact, contact.points[i], lags_[k][i]);
-            if (time > 0) landings_.push_back({contact.block[i], time});
-        }
-    }
-}
-
-template <class S>
-void RowContacts<S>::updateSlips(std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) const {
-    for (const Slip& slip : slips_) {
-        const Block<S>& block = rows.blocks[slip.block];
-        Row<S>* tangents = rows.rows.data() + block.first + 1;
-        Eigen::Matrix<Real, S::tangents, 1> before, after;
-        for (int i = 0; i < S::tangents; ++i) {
-            before[i] = slip.before[static_cast<std::size_t>(i)];
-            after[i] = rowVelocity<S>(tangents[i], velocities[block.a], velocities[block.b]);
-            if (slip.surface[static_cast<std::size_t>(i)] != 0)
-                after[i] += slip.surface[static_cast<std::size_t>(i)];
-        }
-        const Eigen::Matrix<Real, S::tangents, 1> bias = slipBias<Real, S::tangents>(before, after);
-        for (int i = 0; i < S::tangents; ++i) {
-            tangents[i].bias = bias[i];
-            if (slip.surface[static_cast<std::size_t>(i)] != 0)
-                tangents[i].bias += slip.surface[static_cast<std::size_t>(i)];
-            tangents[i].relaxedBias = tangents[i].bias;
-        }
-    }
 }
 
 template <class S>

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "engine/contacts/contact_model.hpp"
@@ -50,11 +51,25 @@ class RowContacts final : public ContactModel<S> {
         std::array<Real, S::tangents> before{};   ///< along its tangents [m/s]
         std::array<Real, S::tangents> surface{};  ///< velocity of the surfaces over the bodies [m/s]
     };
-    std::vector<RowLags<S>> lags_;  ///< by contact; empty where rows are not those of a midpoint
+    std::vector<RowLags<S>>
+        lags_;  ///< one for each contact, empty in steps whose rows are not those of a midpoint
     std::vector<LandingPoint<Real>> landings_;
     std::vector<Slip> slips_;  ///< points where friction opposes the mean slip
     bool stepBegins_ = false;  ///< the next sub-step is the first of its step
 };
+
+/// Rounding of coordinates of order one metre: closer than this is touching.
+template <class R>
+inline constexpr R kTouching = R(64) * std::numeric_limits<R>::epsilon();
+
+// --- contact_lags.cpp
+/// Places the points of a contact, and finds what the rows of those that it had in the last step lag by.
+template <class S>
+void placeWithLags(const BodyArrays<S>& bodies, Contact<S>& contact, RowLags<S>& lags);
+/// Adds to the rows of a point what they lag by. A point that lands within the step has the law of impact.
+template <class S>
+void addLag(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
+            std::size_t index, const RowLag<S>& lag, const Block<S>& block, Row<S>* rows);
 
 /// Unit tangents that with n form a right-handed orthonormal frame; a function of n alone.
 template <class S>

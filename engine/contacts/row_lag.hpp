@@ -15,11 +15,12 @@
 
 namespace rigor::engine {
 
-/// Lag of the rows of a point: what J(q_1) v - J(q_M) v is.
+/// The lag of the rows of a point, J(q_1) v - J(q_M) v.
 template <class S>
 struct RowLag {
-    typename S::Real normal = 0;            ///< of the normal row [m/s]
-    typename S::Vec slip = S::Vec::Zero();  ///< of the tangential rows: its components along them [m/s]
+    typename S::Real normal = 0;  ///< the normal row's [m/s]
+    typename S::Vec slip =
+        S::Vec::Zero();  ///< its components along the tangents are those of their rows [m/s]
 };
 template <class S>
 using RowLags = std::array<RowLag<S>, S::maxManifoldPoints>;
@@ -43,7 +44,7 @@ RowLag<S> rowLag(const PointFrame<S>& last, const PointFrame<S>& now, const Body
                  const Contact<S>& contact) {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
-    constexpr Real kMostTurn = Real(0.3);  // of the normal and of the arms [rad]
+    constexpr Real kMostTurn = Real(0.3);  // the largest turn of the normal and of an arm [rad]
     const auto jumps = [](const Vec& from, const Vec& to) {
         return !((to - from).squaredNorm() <= kMostTurn * kMostTurn * to.squaredNorm());
     };

@@ -145,7 +145,7 @@ void Step<S>::makeRows() {
     if (algorithms_.restitution->solvesImpacts()) solveImpacts();
 }
 
-/// Of sub-steps none but the first has the rows of a midpoint that follows one of the step before.
+/// Sub-steps after the first have rows of a midpoint that does not follow one of the step before.
 template <class S>
 bool Step<S>::rowsLag() const {
     return motion_.isAtMidpoint() && !method_.style.positions && method_.substeps == 1;

@@ -33,7 +33,7 @@ void Step<S>::findLandingBodies() {
     state_.before.assign(bodies_.velocity.begin(), bodies_.velocity.end());
 }
 
-/// What holds a body until it lands acts for that part of the step, before the impact: its last impulses.
+/// The contacts that hold a body until it lands act for that part of the step, before the impact, with their last impulses.
 template <class S>
 void Step<S>::beginLandings() {
     std::vector<Landing<S>>& landings = state_.landings;

@@ -4,7 +4,6 @@
 // The order of an integrator by fits over many step sizes: against closed forms, or between runs where there is none.
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <functional>
 #include <string>

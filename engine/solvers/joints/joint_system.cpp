@@ -175,22 +175,25 @@ void JointSystem<S>::eliminate(const Part& part) {
     const auto size = static_cast<std::size_t>(part.size);
     const auto pad = static_cast<std::size_t>(paddedRows<Real>(part.size));
     Real *const diagonal = diagonal_.data() + part.diagonal, *const x = x_.data() + part.x;
-    Real* const shift = shift_.data() + part.x;
+    for (std::size_t k = 0; k < part.last - part.first; ++k)
+        for (std::size_t i = 0; i < size; ++i)
+            x[k * pad + i] = shiftPivot(diagonal[(k * size + i) * pad + i]);
+    factorPart(kernelPart(part), x);
+    // A chain or a tree that hangs on one fixed body has fewer couplings than items, and no redundant rows. A pivot of which
+    // the shift is a large part belongs to a row that others make redundant. The diagonal has the reciprocals of the pivots'
+    // roots now, x half their shifts.
+    if (part.lastCoupling - part.coupling < part.last - part.first && part.fixed <= 1) return;
+    Real most = 0, least = 1;
     for (std::size_t k = 0; k < part.last - part.first; ++k)
         for (std::size_t i = 0; i < size; ++i) {
-            x[k * pad + i] = shiftPivot(diagonal[(k * size + i) * pad + i]);
-            shift[k * pad + i] = Real(2) * x[k * pad + i];
+            const Real inverse = diagonal[(k * size + i) * pad + i];
+            most = std::max(most, x[k * pad + i] * inverse * inverse);
+            least = std::min(least, inverse);
         }
-    factorPart(kernelPart(part), x);
-    // A pivot of which the shift is a large part belongs to a row that others make redundant.
-    bool redundant = false;
-    for (std::size_t k = 0; k < part.last - part.first; ++k)
-        for (std::size_t i = 0; i < rows_[part.first + k]; ++i) {
-            const Real inverse = diagonal[(k * size + i) * pad + i];  // of the root
-            redundant =
-                redundant || !(inverse > 0) || kMostShift * shift[k * pad + i] * inverse * inverse > 1;
-        }
+    const bool redundant = Real(2) * kMostShift * most > 1 || !(least > 0);
     redundant_[static_cast<std::size_t>(&part - parts_.data())] = redundant;
+    for (std::size_t i = 0; redundant && i < (part.last - part.first) * pad; ++i)
+        shift_[part.x + i] = Real(2) * x[i];
 }
 
 template <class S>

@@ -79,6 +79,7 @@ class JointSystem {
         std::size_t target;                  ///< index of its first entry in target_
         std::uint32_t fronts;                ///< kNullIndex, or where its fronts are
         bool full;                           ///< all its items have `size` rows
+        std::uint32_t fixed;                 ///< number of its items one of whose bodies no impulse moves
     };
     static Place placeOf(const Item& item);
     bool analyse(std::span<const Item> items);

@@ -77,13 +77,14 @@ void JointSystem<S>::layOut(Elimination& order) {
     fronts_.clear();
     std::size_t lower = 0, diagonal = 0, x = 0;
     for (std::size_t p = 0; p + 1 < order.part.size(); ++p) {
-        Part part{order.part[p],  order.part[p + 1], 1,   0, 0, lower, diagonal, x,
-                  target_.size(), kNullIndex,        true};
+        Part part{order.part[p],  order.part[p + 1], 1,    0, 0, lower, diagonal, x,
+                  target_.size(), kNullIndex,        true, 0};
         for (std::uint32_t k = part.first; k < part.last; ++k) {
             position_[item_[k]] = k;
             rows_[k] = static_cast<std::uint8_t>(pattern_[item_[k]].rows);
             part_[item_[k]] = static_cast<std::uint32_t>(parts_.size());
             part.size = std::max(part.size, static_cast<int>(pattern_[item_[k]].rows));
+            part.fixed += pattern_[item_[k]].a == kNullIndex || pattern_[item_[k]].b == kNullIndex;
         }
         for (std::uint32_t k = part.first; k < part.last; ++k) part.full = part.full && rows_[k] == part.size;
         const auto size = static_cast<std::size_t>(part.size);

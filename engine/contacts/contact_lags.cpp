@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Rows of a step's middle that turn, and landings within the step: for steps that lead from midpoint to midpoint.
+#include "engine/contacts/contact_rows.hpp"
+
+namespace rigor::engine {
+namespace {
+
+template <class S>
+PointFrame<S> frameOf(const typename Contact<S>::Point& point, const typename S::Vec& normal) {
+    return {point.rA, point.rB, normal};
+}
+
+/// Fraction of the step in which the gap of a point closes that lands in it at its own time; 0: none.
+template <class S>
+typename S::Real landingTime(const BodyArrays<S>& bodies, const ContactStep<S>& step,
+                             const Contact<S>& contact, const typename Contact<S>::Point& point,
+                             const RowLag<S>& lag) {
+    using Real = typename S::Real;
+    if (step.mayLand.empty() || point.separation <= kTouching<Real> || contact.speculative) return 0;
+    if (step.bounces && contact.coefficients.restitution > 0) return 0;
+    const std::uint32_t body = bodies.invMass[contact.bodyA] > 0 ? contact.bodyA : contact.bodyB;
+    const Real closes = -step.h * (point.approach + lag.normal);
+    if (!step.mayLand[body] || closes < Real(0.25) * step.restingGap || point.separation >= closes) return 0;
+    return point.separation / closes;
+}
+
+}  // namespace
+
+/// Places the points of a contact, and finds what the rows of those that it had in the last step lag by.
+template <class S>
+void placeWithLags(const BodyArrays<S>& bodies, Contact<S>& contact, RowLags<S>& lags) {
+    const auto last = contact.points;
+    placePoints(bodies, contact);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+        lags[i] = rowLag<S>(frameOf<S>(last[i], contact.lastNormal),
+                            frameOf<S>(contact.points[i], contact.manifold.normal), bodies, contact);
+}
+
+/// Adds to the rows of a point what they lag by. A point that lands within the step has the law of impact.
+template <class S>
+void addLag(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
+            std::size_t index, const RowLag<S>& lag, const Block<S>& block, Row<S>* rows) {
+    rows[0].error += step.h * lag.normal;
+    if (landingTime<S>(bodies, step, contact, contact.points[index], lag) > 0)
+        rows[0].bias = rows[0].relaxedBias = 0;
+    const auto add = [](Row<S>& row, typename S::Real bias) {
+        row.bias += bias;
+        row.relaxedBias += bias;
+    };
+    if (block.restitution == 0) add(rows[0], lag.normal);
+    for (int i = 1; i < block.rows; ++i) add(rows[i], lag.slip.dot(rows[i].lin));
+}
+
+template <class S>
+void RowContacts<S>::findLandings(const ContactList<S>& contacts, const BodyArrays<S>& bodies,
+                                  const ContactStep<S>& step) {
+    landings_.clear();
+    if (step.mayLand.empty() || lags_.empty()) return;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        const Contact<S>& contact = contacts[k];
+        if (contact.islands != islands_ || contact.blocks == 0) continue;
+        for (std::size_t i = 0; i < contact.block.size(); ++i) {
+            if (contact.block[i] == kNullIndex) continue;
+            const Real time = landingTime<S>(bodies, step, contact, contact.points[i], lags_[k][i]);
+            if (time > 0) landings_.push_back({contact.block[i], time});
+        }
+    }
+}
+
+#define RIGOR_INSTANTIATE(S)                                                                             \
+    template void placeWithLags<S>(const BodyArrays<S>&, Contact<S>&, RowLags<S>&);                      \
+    template void addLag<S>(const BodyArrays<S>&, const ContactStep<S>&, const Contact<S>&, std::size_t, \
+                            const RowLag<S>&, const Block<S>&, Row<S>*);                                 \
+    template void RowContacts<S>::findLandings(const ContactList<S>&, const BodyArrays<S>&,              \
+                                               const ContactStep<S>&);
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine
