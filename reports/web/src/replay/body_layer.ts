@@ -3,51 +3,23 @@
 //
 // The bodies of one source: faces and edges, one draw call each for every kind of shape. Nothing is allocated when the
 // frame changes.
-import {
-  type BufferGeometry,
-  type Color,
-  DynamicDrawUsage,
-  Group,
-  InstancedBufferAttribute,
-  InstancedMesh,
-  LineBasicMaterial,
-  LineSegments,
-  type Material,
-  MeshBasicMaterial,
-  MeshLambertMaterial,
-  Sphere,
-  Vector3,
-} from 'three';
+import { type BufferGeometry, type Color, Group, InstancedMesh, LineSegments, Mesh, Sphere, Vector3 } from 'three';
 import { type Bounds, boundsOf } from './bounds.ts';
 import type { Frame } from './frames.ts';
 import { composeInto, stretchInto } from './matrices.ts';
+import { Places } from './repeated.ts';
 import type { Geometry, Scene } from './scene.ts';
 import type { Template, TemplateCache } from './shape_meshes.ts';
-
-/** Line segments drawn once for each matrix; three.js draws whatever says isInstancedMesh that way. */
-class InstancedLines extends LineSegments<BufferGeometry, LineBasicMaterial> {
-  readonly isInstancedMesh = true;
-  readonly instanceMatrix: InstancedBufferAttribute;
-  instanceColor: InstancedBufferAttribute | null = null;
-  readonly morphTexture = null;
-  override count: number;
-
-  constructor(geometry: BufferGeometry, material: LineBasicMaterial, matrices: InstancedBufferAttribute) {
-    super(geometry, material);
-    this.instanceMatrix = matrices;
-    this.count = matrices.count;
-    this.frustumCulled = false;
-  }
-}
+import { TintMaterial } from './tint_material.ts';
 
 /** All shapes that are drawn from one template. */
 interface Batch {
-  faces: InstancedMesh | null;
-  edges: InstancedLines;
-  matrices: InstancedBufferAttribute;
-  colours: InstancedBufferAttribute;
-  bodies: Int32Array;
-  shapes: Int32Array; // place in the layer's list of shapes
+  faces: Mesh<BufferGeometry, TintMaterial> | null;
+  edges: LineSegments<BufferGeometry, TintMaterial>;
+  target: InstancedMesh | null; // the same faces for rays; it is not drawn
+  places: Places;
+  glass: boolean; // walls before the scene
+  shapes: Int32Array; // places in the layer's list of shapes
 }
 
 export interface ShapeOfLayer {
@@ -74,9 +46,7 @@ export class BodyLayer {
   readonly #batches: Batch[] = [];
   readonly #local: Float64Array; // pose of every shape in its body
   readonly #scale: Float32Array;
-  readonly #surface: Material;
-  readonly #glass: Material; // material of walls before the scene
-  readonly #line: LineBasicMaterial;
+  readonly #flat: boolean;
 
   /** `skip`: bodies that another layer draws; `glass`: those that are seen through. */
   constructor(
@@ -86,12 +56,7 @@ export class BodyLayer {
     glass: (body: number) => boolean = () => false,
   ) {
     const flat = scene.dimension === 2;
-    this.#surface = flat ? new MeshBasicMaterial() : new MeshLambertMaterial();
-    this.#surface.polygonOffset = true;
-    this.#surface.polygonOffsetFactor = 1;
-    this.#surface.polygonOffsetUnits = 1;
-    this.#glass = new MeshLambertMaterial({ transparent: true, opacity: 0.16, depthWrite: false });
-    this.#line = new LineBasicMaterial();
+    this.#flat = flat;
     const members = [new Map<Template, number[]>(), new Map<Template, number[]>()] as const;
     const local: number[] = [];
     const scale: number[] = [];
@@ -112,39 +77,51 @@ export class BodyLayer {
     this.#local = Float64Array.from(local);
     this.#scale = Float32Array.from(scale);
     this.rigid = new Float32Array(16 * this.shapes.length);
-    for (const [template, list] of members[0]) this.#addBatch(template, list, flat, this.#surface);
-    for (const [template, list] of members[1]) this.#addBatch(template, list, flat, this.#glass);
+    for (const [template, list] of members[0]) this.#addBatch(templates, template, list, false);
+    for (const [template, list] of members[1]) this.#addBatch(templates, template, list, true);
   }
 
-  #addBatch(template: Template, shapes: number[], flat: boolean, material: Material): void {
+  #addBatch(templates: TemplateCache, template: Template, shapes: number[], glass: boolean): void {
     const n = shapes.length;
-    const matrices = new InstancedBufferAttribute(new Float32Array(16 * n), 16);
-    const colours = new InstancedBufferAttribute(new Float32Array(3 * n), 3);
-    matrices.setUsage(DynamicDrawUsage);
-    let faces: InstancedMesh | null = null;
-    if (template.faces) {
-      faces = new InstancedMesh(template.faces, material, 0);
-      faces.instanceMatrix = matrices;
-      faces.instanceColor = colours;
-      faces.count = n;
-      faces.frustumCulled = false;
-      faces.boundingSphere = everywhere; // a stale one would hide shapes from the pointer
-      faces.renderOrder = flat ? 1 : material === this.#glass ? 3 : 0;
-      this.group.add(faces);
-    }
-    const edges = new InstancedLines(template.edges, this.#line, matrices);
-    edges.renderOrder = flat ? 2 : 1;
+    const places = new Places(n);
+    const edges = new LineSegments(templates.repeated(template.edges, n), new TintMaterial(false, places));
+    edges.frustumCulled = false;
+    edges.material.transparent = true;
+    edges.renderOrder = this.#flat ? 2 : 1;
     this.group.add(edges);
-    const bodies = Int32Array.from(shapes, (s) => this.shapes[s]?.body ?? 0);
-    this.#batches.push({ faces, edges, matrices, colours, bodies, shapes: Int32Array.from(shapes) });
+    const batch: Batch = { faces: null, edges, target: null, places, glass, shapes: Int32Array.from(shapes) };
+    if (template.faces) this.#addFaces(batch, templates.repeated(template.faces, n), template.faces);
+    this.#batches.push(batch);
+  }
+
+  #addFaces(batch: Batch, copies: BufferGeometry, one: BufferGeometry): void {
+    const material = new TintMaterial(!this.#flat, batch.places);
+    if (batch.glass) {
+      material.transparent = true;
+      material.depthWrite = false;
+      material.cover = 0.16;
+    } else {
+      material.polygonOffset = true;
+      material.polygonOffsetFactor = 1;
+      material.polygonOffsetUnits = 1;
+    }
+    batch.faces = new Mesh(copies, material);
+    batch.faces.frustumCulled = false;
+    batch.faces.renderOrder = this.#flat ? 1 : batch.glass ? 3 : 0;
+    this.group.add(batch.faces);
+    if (batch.glass) return; // a ray passes through it
+    batch.target = new InstancedMesh(one, material, 0);
+    batch.target.instanceMatrix = batch.places.attribute();
+    batch.target.count = batch.shapes.length;
+    batch.target.boundingSphere = everywhere; // a stale one would hide shapes from the pointer
   }
 
   /** Matrices of all shapes as they stand in the buffers that are drawn: the axes stretched to the shape's size. */
   get drawn(): { body: number; shape: number; matrix: number[] }[] {
-    return this.#batches.flatMap(({ edges, shapes }) =>
+    return this.#batches.flatMap(({ places, shapes }) =>
       [...shapes].map((s, i) => {
         const { body, index } = this.shapes[s] as ShapeOfLayer;
-        return { body, shape: index, matrix: [...edges.instanceMatrix.array.slice(16 * i, 16 * i + 16)] };
+        return { body, shape: index, matrix: [...places.matrices.slice(16 * i, 16 * i + 16)] };
       }),
     );
   }
@@ -156,48 +133,53 @@ export class BodyLayer {
       composeInto(this.rigid, 16 * s, frame.position, frame.orientation, body, this.#local, 7 * s);
     }
     for (const batch of this.#batches) {
-      const out = batch.matrices.array as Float32Array;
+      const out = batch.places.matrices;
       for (let i = 0; i < batch.shapes.length; ++i) {
         const s = batch.shapes[i] as number;
         stretchInto(out, 16 * i, this.rigid, 16 * s, this.#scale, 3 * s);
       }
-      batch.matrices.needsUpdate = true;
+      batch.places.matrixTexture.needsUpdate = true;
     }
   }
 
   /** `colours`: three numbers a body, linear. */
   paint(colours: Float32Array): void {
     for (const batch of this.#batches) {
-      const out = batch.colours.array as Float32Array;
-      for (let i = 0; i < batch.bodies.length; ++i) {
-        const b = 3 * (batch.bodies[i] as number);
-        out[3 * i] = colours[b] as number;
-        out[3 * i + 1] = colours[b + 1] as number;
-        out[3 * i + 2] = colours[b + 2] as number;
+      const out = batch.places.colours;
+      for (let i = 0; i < batch.shapes.length; ++i) {
+        const b = 3 * (this.shapes[batch.shapes[i] as number] as ShapeOfLayer).body;
+        out[4 * i] = colours[b] as number;
+        out[4 * i + 1] = colours[b + 1] as number;
+        out[4 * i + 2] = colours[b + 2] as number;
       }
-      batch.colours.needsUpdate = true;
+      batch.places.colourTexture.needsUpdate = true;
     }
   }
 
-  look({ faces, outlines, ghost, behind, ink, dark }: BodyLook, inkColour: Color): void {
-    const flat = this.#surface instanceof MeshBasicMaterial;
-    const surface = this.#surface;
-    surface.transparent = ghost || flat;
-    surface.opacity = behind ? 0.1 : ghost ? 0.25 : flat ? 0.85 : 1;
-    surface.depthWrite = !ghost && !flat;
-    surface.depthTest = !flat;
-    surface.polygonOffsetFactor = surface.polygonOffsetUnits = behind ? 4 : 1;
+  look(look: BodyLook, inkColour: Color): void {
+    const { ghost, faces, behind } = look;
     const coloured = ghost || !faces;
-    this.#line.color.copy(coloured ? inkColour.set('#ffffff') : inkColour.set(ink));
-    this.#line.transparent = true;
-    this.#line.opacity = behind ? 0.9 : coloured ? 0.95 : dark ? 0.75 : 0.6;
-    this.#line.depthTest = !flat && !behind; // a reference inside of its body is still seen
+    inkColour.set(coloured ? '#ffffff' : look.ink);
     for (const batch of this.#batches) {
-      if (batch.faces) batch.faces.visible = faces;
-      const alone = batch.faces === null; // chains have nothing else
-      batch.edges.visible = outlines || alone;
-      batch.edges.instanceColor = coloured ? batch.colours : null;
+      const line = batch.edges.material;
+      line.color.copy(inkColour);
+      line.own = coloured;
+      line.cover = behind ? 0.9 : coloured ? 0.95 : look.dark ? 0.75 : 0.6;
+      line.depthTest = !this.#flat && !behind; // a reference inside of its body is still seen
+      batch.edges.visible = look.outlines || batch.faces === null; // chains have nothing else
+      if (!batch.faces) continue;
+      batch.faces.visible = faces;
+      batch.faces.material.sky = look.dark ? 1 : 1.35;
+      if (!batch.glass) this.#lookOf(batch.faces.material, look);
     }
+  }
+
+  #lookOf(surface: TintMaterial, { ghost, behind }: BodyLook): void {
+    surface.transparent = ghost || this.#flat;
+    surface.cover = behind ? 0.1 : ghost ? 0.25 : this.#flat ? 0.85 : 1;
+    surface.depthWrite = !ghost && !this.#flat;
+    surface.depthTest = !this.#flat;
+    surface.polygonOffsetFactor = surface.polygonOffsetUnits = behind ? 4 : 1;
   }
 
   /** Box of a shape where it was last placed. */
@@ -208,18 +190,20 @@ export class BodyLayer {
 
   /** Meshes to aim at, and the shape behind an instance of one. */
   get targets(): InstancedMesh[] {
-    return this.#batches.flatMap(({ faces }) => (faces && faces.material !== this.#glass ? [faces] : []));
+    return this.#batches.flatMap(({ target }) => (target ? [target] : []));
   }
   shapeOf(mesh: unknown, instance: number): ShapeOfLayer | null {
-    const batch = this.#batches.find((b) => b.faces === mesh);
+    const batch = this.#batches.find((b) => b.target === mesh);
     const shape = batch?.shapes[instance];
     return shape === undefined ? null : (this.shapes[shape] as ShapeOfLayer);
   }
 
   dispose(): void {
-    for (const batch of this.#batches) batch.faces?.dispose();
-    this.#surface.dispose();
-    this.#glass.dispose();
-    this.#line.dispose();
+    for (const { faces, edges, target, places } of this.#batches) {
+      faces?.material.dispose();
+      edges.material.dispose();
+      target?.dispose();
+      places.dispose();
+    }
   }
 }

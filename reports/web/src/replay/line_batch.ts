@@ -6,31 +6,19 @@ import {
   BufferAttribute,
   BufferGeometry,
   type Color,
-  ConeGeometry,
-  DynamicDrawUsage,
-  InstancedBufferAttribute,
-  InstancedInterleavedBuffer,
-  InstancedMesh,
-  InterleavedBufferAttribute,
+  DoubleSide,
   LineBasicMaterial,
   LineSegments,
-  MeshBasicMaterial,
+  Mesh,
   Points,
   ShaderMaterial,
+  Vector4,
 } from 'three';
-import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
-import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
-import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
+import { Cones } from './cones.ts';
+import { FatMaterial } from './fat_material.ts';
+import { grown, type Numbers, setDynamic } from './growing.ts';
+import { TintMaterial } from './tint_material.ts';
 import type { Vec3 } from './vectors.ts';
-
-type Numbers = Float32Array<ArrayBuffer>;
-
-const grown = (array: Numbers, needed: number): Numbers => {
-  if (needed <= array.length) return array;
-  const larger = new Float32Array(Math.max(needed, 2 * array.length));
-  larger.set(array);
-  return larger;
-};
 
 /** Ends and colours of lines, six numbers each. */
 class Segments {
@@ -107,15 +95,6 @@ export class ThinLines {
   }
 }
 
-function setDynamic(geometry: BufferGeometry, name: string, array: Float32Array): void {
-  let attribute = geometry.getAttribute(name) as BufferAttribute | undefined;
-  if (attribute?.array !== array) {
-    attribute = new BufferAttribute(array, 3).setUsage(DynamicDrawUsage);
-    geometry.setAttribute(name, attribute);
-  }
-  attribute.needsUpdate = true;
-}
-
 export interface Arrow {
   from: Vec3;
   to: Vec3;
@@ -123,36 +102,37 @@ export interface Arrow {
 
 /** Lines and arrows a few pixels wide, seen through everything. */
 export class FatLines {
-  readonly object: LineSegments2;
-  readonly heads: InstancedMesh;
+  readonly object: Mesh<BufferGeometry, FatMaterial>;
+  readonly heads: Mesh<BufferGeometry, TintMaterial>;
   readonly #segments = new Segments(32);
-  #headCount = 0;
+  readonly #cones = new Cones(32);
+  readonly #size = new Vector4();
   #stems: number[] = []; // line of each head
-  #geometry = new LineSegmentsGeometry();
-  readonly #lineMaterial: LineMaterial;
+  #ends: Numbers = new Float32Array(0); // corners of the rectangles, three numbers each
+  #others: Numbers = new Float32Array(0);
+  #tones: Numbers = new Float32Array(0);
 
   constructor(order: number, width: number) {
-    this.#lineMaterial = new LineMaterial({
-      linewidth: width,
-      vertexColors: true,
-      depthTest: false,
-      transparent: true,
-    });
-    this.object = new LineSegments2(this.#geometry, this.#lineMaterial);
-    this.#bind();
-    this.object.frustumCulled = false;
-    this.object.renderOrder = order;
-    const cone = new ConeGeometry(0.5, 1, 14);
-    cone.translate(0, -0.5, 0); // its tip is the origin
-    this.heads = new InstancedMesh(cone, new MeshBasicMaterial({ depthTest: false, transparent: true }), 64);
-    this.heads.instanceColor = new InstancedBufferAttribute(new Float32Array(3 * 64), 3);
-    this.heads.frustumCulled = false;
-    this.heads.renderOrder = order;
+    this.object = new Mesh(new BufferGeometry(), new FatMaterial(width));
+    this.object.onBeforeRender = (renderer) => {
+      renderer.getViewport(this.#size);
+      this.object.material.fit(this.#size.z, this.#size.w);
+    };
+    const tint = new TintMaterial(false, null);
+    tint.vertexColors = true;
+    tint.depthTest = false;
+    tint.transparent = true; // drawn in the order of overlays
+    tint.side = DoubleSide; // cones are open below
+    this.heads = new Mesh(new BufferGeometry(), tint);
+    for (const mesh of [this.object, this.heads]) {
+      mesh.frustumCulled = false;
+      mesh.renderOrder = order;
+    }
   }
 
   begin(): void {
     this.#segments.count = 0;
-    this.#headCount = 0;
+    this.#cones.count = 0;
     this.#stems = [];
   }
 
@@ -168,92 +148,64 @@ export class FatLines {
     const s = (length - h) / length;
     this.#stems.push(this.#segments.count);
     this.line(x, y, z, x + dx * s, y + dy * s, z + dz * s, c);
-    this.#head(x + dx, y + dy, z + dz, dx / length, dy / length, dz / length, h, c);
+    this.#cones.add(x + dx, y + dy, z + dz, dx / length, dy / length, dz / length, h, c);
   }
 
   /** Arrows as they stand in the buffers that are drawn: where each begins, and its tip [m]. */
   get arrows(): Arrow[] {
-    const starts = this.object.geometry.getAttribute('instanceStart') as InterleavedBufferAttribute;
-    const tips = this.heads.instanceMatrix.array;
-    return this.#stems.map((stem, i) => ({
-      from: [starts.getX(stem), starts.getY(stem), starts.getZ(stem)],
-      to: [12, 13, 14].map((k) => tips[16 * i + k] as number) as Vec3,
-    }));
+    const three = (array: Numbers, at: number) => [0, 1, 2].map((k) => array[at + k] as number) as Vec3;
+    return this.#stems.map((stem, i) => ({ from: three(this.#ends, 12 * stem), to: this.#cones.tip(i) }));
   }
 
   end(): void {
-    if (this.#geometry.getAttribute('instanceStart')?.array !== this.#segments.points) this.#bind();
-    for (const name of ['instanceStart', 'instanceColorStart'])
-      (this.#geometry.getAttribute(name) as InterleavedBufferAttribute).data.needsUpdate = true;
-    this.#geometry.instanceCount = this.#segments.count;
+    this.#layOut();
+    const { geometry } = this.object;
+    setDynamic(geometry, 'position', this.#ends);
+    setDynamic(geometry, 'other', this.#others);
+    setDynamic(geometry, 'color', this.#tones);
+    geometry.setDrawRange(0, 6 * this.#segments.count);
     this.object.visible = this.#segments.count > 0;
-    this.heads.count = this.#headCount;
-    this.heads.visible = this.#headCount > 0;
-    this.heads.instanceMatrix.needsUpdate = true;
-    if (this.heads.instanceColor) this.heads.instanceColor.needsUpdate = true;
+    this.#cones.give(this.heads.geometry);
+    this.heads.visible = this.#cones.count > 0;
+  }
+
+  /** Four corners for each line: two at its first end, two at its second one. */
+  #layOut(): void {
+    const { points, colours, count } = this.#segments;
+    if (this.#ends.length < 2 * points.length) this.#makeRoom(points.length / 6);
+    for (let i = 0; i < count; ++i)
+      for (let corner = 0; corner < 4; ++corner) {
+        const near = 6 * i + (corner < 2 ? 0 : 3);
+        const far = 6 * i + (corner < 2 ? 3 : 0);
+        for (let k = 0; k < 3; ++k) {
+          const to = 12 * i + 3 * corner + k;
+          this.#ends[to] = points[near + k] as number;
+          this.#others[to] = points[far + k] as number;
+          this.#tones[to] = colours[near + k] as number;
+        }
+      }
+  }
+
+  #makeRoom(lines: number): void {
+    this.#ends = new Float32Array(12 * lines);
+    this.#others = new Float32Array(12 * lines);
+    this.#tones = new Float32Array(12 * lines);
+    // seen from its own end, the left side of a line is the right one of its other end
+    const sides = Float32Array.from({ length: 4 * lines }, (_, i) => [-1, 1, 1, -1][i % 4] as number);
+    const corners = [0, 1, 2, 2, 1, 3];
+    const index = Uint32Array.from({ length: 6 * lines }, (_, i) => 4 * Math.floor(i / 6) + (corners[i % 6] as number));
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('side', new BufferAttribute(sides, 1));
+    geometry.setIndex(new BufferAttribute(index, 1));
+    this.object.geometry.dispose();
+    this.object.geometry = geometry;
   }
 
   dispose(): void {
-    this.#geometry.dispose();
-    this.#lineMaterial.dispose();
-    this.heads.geometry.dispose();
-    (this.heads.material as MeshBasicMaterial).dispose();
-    this.heads.dispose();
-  }
-
-  /** Buffers that have grown need a new geometry. */
-  #bind(): void {
-    this.#geometry.dispose();
-    this.#geometry = new LineSegmentsGeometry();
-    const set = (start: string, end: string, array: Float32Array) => {
-      const buffer = new InstancedInterleavedBuffer(array, 6, 1).setUsage(DynamicDrawUsage);
-      this.#geometry.setAttribute(start, new InterleavedBufferAttribute(buffer, 3, 0));
-      this.#geometry.setAttribute(end, new InterleavedBufferAttribute(buffer, 3, 3));
-    };
-    set('instanceStart', 'instanceEnd', this.#segments.points);
-    set('instanceColorStart', 'instanceColorEnd', this.#segments.colours);
-    this.object.geometry = this.#geometry;
-  }
-
-  /** A cone whose axis y points along the unit vector d. */
-  #head(x: number, y: number, z: number, dx: number, dy: number, dz: number, size: number, c: Color): void {
-    const i = this.#headCount++;
-    const heads = this.heads;
-    if (16 * (i + 1) > heads.instanceMatrix.array.length) {
-      const matrices = grown(heads.instanceMatrix.array as Numbers, 16 * (i + 1));
-      heads.instanceMatrix = new InstancedBufferAttribute(matrices, 16);
-      const colours = grown(heads.instanceColor?.array as Numbers, (3 * matrices.length) / 16);
-      heads.instanceColor = new InstancedBufferAttribute(colours, 3);
+    for (const mesh of [this.object, this.heads]) {
+      mesh.geometry.dispose();
+      mesh.material.dispose();
     }
-    const m = heads.instanceMatrix.array as Float32Array;
-    const o = 16 * i;
-    // any unit vector across d
-    const across = Math.abs(dy) < 0.9;
-    let ux = across ? dz : 0;
-    let uy = across ? 0 : -dz;
-    let uz = across ? -dx : dy;
-    const norm = Math.sqrt(ux * ux + uy * uy + uz * uz);
-    ux /= norm;
-    uy /= norm;
-    uz /= norm;
-    const w = 0.62 * size;
-    m[o] = ux * w;
-    m[o + 1] = uy * w;
-    m[o + 2] = uz * w;
-    m[o + 4] = dx * size;
-    m[o + 5] = dy * size;
-    m[o + 6] = dz * size;
-    m[o + 8] = (uy * dz - uz * dy) * w;
-    m[o + 9] = (uz * dx - ux * dz) * w;
-    m[o + 10] = (ux * dy - uy * dx) * w;
-    m[o + 12] = x;
-    m[o + 13] = y;
-    m[o + 14] = z;
-    m[o + 15] = 1;
-    const q = heads.instanceColor?.array as Float32Array;
-    q[3 * i] = c.r;
-    q[3 * i + 1] = c.g;
-    q[3 * i + 2] = c.b;
   }
 }
 

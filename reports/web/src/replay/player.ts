@@ -89,8 +89,9 @@ export class Player {
     this.#last = now;
     const time = Math.min(this.end, this.#time.value + passed * this.#speed);
     this.#measure(really, time - this.#time.value);
-    this.#requested = requestAnimationFrame(this.#tick);
     this.#time.set(time, this);
+    // The picture asks for the next frame before the clock does: it is drawn in each, and not in every second one.
+    if (this.playing) this.#requested = requestAnimationFrame(this.#tick);
     if (time >= this.end) this.pause();
   };
 }

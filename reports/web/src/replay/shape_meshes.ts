@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Faces and edges of the shapes of a scenario. Shapes that differ in size alone share one unit geometry and are drawn
-// as its instances. Spheres and discs carry lines, so that their turning is seen.
+// as copies of it. Spheres and discs carry lines, so that their turning is seen.
 import {
   BoxGeometry,
   BufferAttribute,
@@ -18,6 +18,7 @@ import {
   Vector3,
 } from 'three';
 import { ConvexGeometry } from 'three/addons/geometries/ConvexGeometry.js';
+import { repeated } from './repeated.ts';
 import type { Geometry } from './scene.ts';
 import type { Vec3 } from './vectors.ts';
 
@@ -199,6 +200,7 @@ function heights(spacing: readonly number[], rows: number[][]): Template {
 /** Templates of one view, each made once. */
 export class TemplateCache {
   readonly #made = new Map<string, Template>();
+  readonly #repeated = new Map<BufferGeometry, Map<number, BufferGeometry>>();
   readonly #round: number;
 
   constructor(bodies = 1, software = false) {
@@ -246,7 +248,24 @@ export class TemplateCache {
     }
   }
 
+  /** So many copies of faces or edges as one geometry. */
+  repeated(geometry: BufferGeometry, n: number): BufferGeometry {
+    let known = this.#repeated.get(geometry);
+    if (!known) {
+      known = new Map();
+      this.#repeated.set(geometry, known);
+    }
+    let copies = known.get(n);
+    if (!copies) {
+      copies = repeated(geometry, n);
+      known.set(n, copies);
+    }
+    return copies;
+  }
+
   dispose(): void {
+    for (const known of this.#repeated.values()) for (const copies of known.values()) copies.dispose();
+    this.#repeated.clear();
     for (const template of this.#made.values()) {
       template.faces?.dispose();
       template.edges.dispose();

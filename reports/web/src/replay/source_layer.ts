@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Everything of one source in a three.js scene of its own: bodies, overlays, ground and light.
-import { Color, DirectionalLight, HemisphereLight, Scene as ThreeScene } from 'three';
+// Everything of one source in a three.js scene of its own: bodies, overlays and ground.
+import { Color, Scene as ThreeScene } from 'three';
 import type { ContactFinding } from '../common/finding.ts';
 import { BodyLayer } from './body_layer.ts';
 import { distinctColour, type Theme } from './colours.ts';
@@ -30,8 +30,6 @@ export class SourceLayer {
   readonly #findings = new FindingOverlay();
   #finding: { finding: ContactFinding; length: number } | null = null;
   readonly #ground: Ground;
-  readonly #sun = new DirectionalLight('#ffffff', 2.1);
-  readonly #sky = new HemisphereLight('#ffffff', '#8a8f98', 1.25);
   readonly #colours: Float32Array;
   readonly #islands: Int32Array;
   readonly #sets: UnionFind;
@@ -60,15 +58,7 @@ export class SourceLayer {
     this.#sets = new UnionFind(scene.bodies.length);
     this.#moves = scene.bodies.map((body) => body.type === 'dynamic');
     this.three.matrixAutoUpdate = false;
-    this.three.add(
-      this.bodies.group,
-      this.#overlays.group,
-      this.#findings.group,
-      this.#ground.group,
-      this.#sun,
-      this.#sky,
-    );
-    this.#sun.position.set(0.45, 1, 0.7);
+    this.three.add(this.bodies.group, this.#overlays.group, this.#findings.group, this.#ground.group);
   }
 
   get frame(): Frame | null {
@@ -86,7 +76,6 @@ export class SourceLayer {
   build(framing: Framing, theme: Theme, pixelRatio: number): void {
     this.#ground.build(framing.center, framing.radius, theme);
     this.pixelRatio = pixelRatio;
-    this.#sky.intensity = theme.dark ? 1.0 : 1.35;
   }
 
   /** Pixels of the canvas in one of the page: dots keep their size. */
@@ -95,12 +84,17 @@ export class SourceLayer {
     this.#overlays.pixels = (this.#scene.bodies.length > 60 ? 5 : 8) * ratio;
   }
 
+  /** Whether the frame of a time is the one that is shown. */
+  isAt(time: number): boolean {
+    const { times } = this.source;
+    return times.length === 0 || (this.#frame !== null && indexAt(times, time) === this.#shown);
+  }
+
   /** The frame at a time; true when that is another one than before. */
   seek(time: number): boolean {
     const { times } = this.source;
-    if (times.length === 0) return false;
+    if (this.isAt(time)) return false;
     const index = indexAt(times, time);
-    if (index === this.#shown && this.#frame) return false;
     this.#shown = index;
     this.#frame = this.source.frame(index);
     this.bodies.place(this.#frame);
@@ -167,8 +161,6 @@ export class SourceLayer {
     this.#overlays.dispose();
     this.#findings.dispose();
     this.#ground.dispose();
-    this.#sun.dispose();
-    this.#sky.dispose();
   }
 }
 const white = new Color('#ffffff');

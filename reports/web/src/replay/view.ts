@@ -18,6 +18,7 @@ import { defaultOptions, type ViewOptions } from './layers.ts';
 import { legendOf } from './legend.ts';
 import { occludingBodies } from './occluder_fade.ts';
 import type { ArrowScales } from './overlays.ts';
+import { Pace } from './pace.ts';
 import { nearestContact, type Rect, rectAt, tile, toDevice } from './picking.ts';
 import type { Scene } from './scene.ts';
 import { TemplateCache } from './shape_meshes.ts';
@@ -40,7 +41,14 @@ function takeRenderer(): WebGLRenderer {
   const known = idle.pop();
   if (known) return known;
   try {
-    const made = new WebGLRenderer({ antialias: !drawsInSoftware(), powerPreference: 'high-performance' });
+    const canvas = document.createElement('canvas');
+    const context = canvas.getContext('webgl2', {
+      alpha: false, // nothing of the page is seen through it
+      antialias: !drawsInSoftware(),
+      powerPreference: 'high-performance',
+    });
+    if (!context) throw new Error('no WebGL 2');
+    const made = new WebGLRenderer({ canvas, context });
     made.autoClear = false;
     made.info.autoReset = false;
     return made;
@@ -109,6 +117,7 @@ export class ReplayView {
   #marked = -1;
   #glass: ReadonlySet<number> = new Set();
   #finding: ShownFinding | null = null;
+  readonly #pace = new Pace();
   #stale = true; // colours and overlays
   #requested = 0;
   #finer: ReturnType<typeof setTimeout> | undefined;
@@ -147,7 +156,7 @@ export class ReplayView {
 
   setTime(seconds: number): void {
     this.#time = seconds;
-    this.invalidate();
+    if (this.#pictures.some(({ layers }) => layers.some((layer) => !layer.isAt(seconds)))) this.invalidate();
   }
 
   setOptions(change: Partial<ViewOptions>): void {
@@ -369,7 +378,7 @@ export class ReplayView {
 
   /** Draws now. */
   draw(): void {
-    this.#useRatio(pixelRatio());
+    this.#useRatio(drawsInSoftware() ? this.#pace.ratioAt(performance.now()) : pixelRatio());
     this.#drawNow();
     clearTimeout(this.#finer);
     if (drawsInSoftware()) this.#finer = setTimeout(() => this.drawFine(), stillAfter);

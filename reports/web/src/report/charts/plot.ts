@@ -230,8 +230,8 @@ function connect(plot: Plot, u: uPlot): (() => void)[] {
   u.over.append(bar);
   const place = () => {
     const left = u.valToPos(cursor.time.value, 'x');
-    bar.hidden = !(left >= 0 && left <= u.over.clientWidth);
-    bar.style.left = `${left}px`;
+    bar.hidden = !(left >= 0 && left <= u.bbox.width / uPlot.pxRatio);
+    bar.style.transform = `translateX(${left}px)`; // needs no layout: it moves with every frame of a replay
   };
   (u.hooks.draw as ((u: uPlot) => void)[]).push(place);
   let pressed = 0;
