@@ -33,7 +33,7 @@ std::vector<std::string> changesOf(const std::vector<Run>& runs) {
     return changes;
 }
 
-int history(const std::vector<std::string>& folders, const fs::path& out) {
+int history(const std::vector<std::string>& folders, const fs::path& out, std::size_t newest) {
     if (folders.size() < 2)
         throw std::invalid_argument("history: found " + std::to_string(folders.size()) +
                                     " run, expected two or more, the oldest first");
@@ -44,7 +44,9 @@ int history(const std::vector<std::string>& folders, const fs::path& out) {
         throw std::invalid_argument(error.what());
     }
     fs::create_directories(out);
-    report::writeFile(out / "index.html", report::historyPage(runs, changesOf(runs)));
+    const auto replays = report::historyReplays(runs, newest);
+    report::writeHistoryReplays(replays, out / "data");
+    report::writeFile(out / "index.html", report::historyPage(runs, changesOf(runs), replays));
     report::writeFile(out / "history.csv", report::historyCsv(runs));
     std::printf("%s\n%s\n", (out / "index.html").c_str(), (out / "history.csv").c_str());
     return kOk;
@@ -56,6 +58,7 @@ void addHistory(CLI::App& app, Action& action) {
     struct Arguments {
         std::vector<std::string> runs;
         std::string out;
+        std::size_t replays = 2;
     };
     auto a = std::make_shared<Arguments>();
     auto* command =
@@ -64,7 +67,12 @@ void addHistory(CLI::App& app, Action& action) {
         ->required()
         ->check(CLI::ExistingDirectory);
     command->add_option("--out", a->out, "Folder of the page")->required();
-    command->callback([a, &action] { action = [a] { return history(a->runs, a->out); }; });
+    command
+        ->add_option(
+            "--replays", a->replays,
+            "Newest runs whose replays are copied beside the page, to be shown side by side; 0: none")
+        ->capture_default_str();
+    command->callback([a, &action] { action = [a] { return history(a->runs, a->out, a->replays); }; });
 }
 
 }  // namespace rigor::cli

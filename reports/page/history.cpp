@@ -71,7 +71,8 @@ Json runsJson(const std::vector<Run>& runs) {
     return list;
 }
 
-Json seriesJson(const CaseHistory& history, std::size_t runs, const std::string& label) {
+Json seriesJson(const CaseHistory& history, std::size_t runs, const std::string& label,
+                const HistoryReplays& replays) {
     const CaseRow* any = nullptr;
     for (const CaseRow* c : history.cases)
         if (c != nullptr) any = c;
@@ -82,8 +83,11 @@ Json seriesJson(const CaseHistory& history, std::size_t runs, const std::string&
              {"label", label},
              {"dt", number(any->dt)},
              {"metric", history.metric.name},
-             {"unit", history.metric.unit}};
-    for (const char* key : {"error", "relative", "grade", "outcome", "time", "low", "high"})
+             {"unit", history.metric.unit},
+             {"scene", nullptr}};
+    if (const auto scene = replays.scenes.find(any->scenario); scene != replays.scenes.end())
+        out["scene"] = scene->second;
+    for (const char* key : {"error", "relative", "grade", "outcome", "time", "low", "high", "replay"})
         out[key] = Json::array();
     for (std::size_t r = 0; r < runs; ++r) {
         const CaseRow* c = r < history.cases.size() ? history.cases[r] : nullptr;
@@ -96,6 +100,8 @@ Json seriesJson(const CaseHistory& history, std::size_t runs, const std::string&
         out["time"].push_back(step ? number(step->median) : Json(nullptr));
         out["low"].push_back(step ? number(step->low) : Json(nullptr));
         out["high"].push_back(step ? number(step->high) : Json(nullptr));
+        const auto replay = replays.names.find({r, any->scenario, any->dt});
+        out["replay"].push_back(c && replay != replays.names.end() ? Json(replay->second) : Json(nullptr));
     }
     return out;
 }
@@ -109,7 +115,8 @@ std::map<std::string, std::string> labelsOf(const std::vector<CaseHistory>& hist
     return results::specLabels(specs);
 }
 
-std::string historyJson(const std::vector<Run>& runs, const std::vector<std::string>& comparisons) {
+std::string historyJson(const std::vector<Run>& runs, const std::vector<std::string>& comparisons,
+                        const HistoryReplays& replays) {
     const auto histories = historiesOf(runs);
     const auto labels = labelsOf(histories);
     Json series = Json::array(), changes = Json::array();
@@ -117,7 +124,7 @@ std::string historyJson(const std::vector<Run>& runs, const std::vector<std::str
         std::string spec;
         for (const CaseRow* c : history.cases)
             if (c != nullptr) spec = c->spec;
-        series.push_back(seriesJson(history, runs.size(), labels.at(spec)));
+        series.push_back(seriesJson(history, runs.size(), labels.at(spec), replays));
     }
     for (const auto& text : comparisons) changes.push_back(text.empty() ? Json(nullptr) : Json::parse(text));
     const Json page{{"runs", runsJson(runs)}, {"changes", changes}, {"series", series}};
@@ -126,8 +133,9 @@ std::string historyJson(const std::vector<Run>& runs, const std::vector<std::str
 
 }  // namespace
 
-std::string historyPage(const std::vector<Run>& runs, const std::vector<std::string>& comparisons) {
-    return htmlHistory(historyJson(runs, comparisons));
+std::string historyPage(const std::vector<Run>& runs, const std::vector<std::string>& comparisons,
+                        const HistoryReplays& replays) {
+    return htmlHistory(historyJson(runs, comparisons, replays));
 }
 
 std::string historyCsv(const std::vector<Run>& runs) {

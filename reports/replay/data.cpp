@@ -248,6 +248,10 @@ std::vector<double> replaySteps(const ViewModel& view, std::size_t scenario) {
     return {steps.begin(), steps.end()};
 }
 
+std::string replayName(std::size_t scenario, std::size_t step) {
+    return "replay-" + std::to_string(scenario) + "-" + std::to_string(step);
+}
+
 void replayFiles(const ViewModel& view, const FullTrajectoryLoader& load,
                  const std::function<void(const std::string& name, const std::string& bundle)>& write) {
     ReplayBudget budget;
@@ -255,7 +259,7 @@ void replayFiles(const ViewModel& view, const FullTrajectoryLoader& load,
     for (std::size_t i = 0; i < scenarios.size(); ++i)
         for (std::size_t j = 0; j < replaySteps(view, i).size(); ++j)
             if (const std::string bundle = replayBundle(view, i, j, load, budget); !bundle.empty())
-                write("replay-" + std::to_string(i) + "-" + std::to_string(j), bundle);
+                write(replayName(i, j), bundle);
 }
 
 }  // namespace rigor::report

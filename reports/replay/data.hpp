@@ -48,8 +48,10 @@ std::vector<double> replaySteps(const ViewModel& view, std::size_t scenario);
 std::string replayBundle(const ViewModel& view, std::size_t scenario, std::size_t step,
                          const FullTrajectoryLoader& load, ReplayBudget& budget);
 
-/// Bundles of all scenarios at all their time steps, one after the other, with the names of their data files:
-/// "replay-<scenario>-<step>".
+/// Name of the data file of a scenario at replaySteps()[step]: "replay-<scenario>-<step>".
+std::string replayName(std::size_t scenario, std::size_t step);
+
+/// Bundles of all scenarios at all their time steps, one after the other, with the names of their data files.
 void replayFiles(const ViewModel& view, const FullTrajectoryLoader& load,
                  const std::function<void(const std::string& name, const std::string& bundle)>& write);
 

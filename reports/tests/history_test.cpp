@@ -7,9 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "reports/encoding/text.hpp"
 #include "reports/tests/synthetic_run.hpp"
 
 namespace rigor::report {
@@ -42,6 +46,17 @@ std::size_t completed(const results::Run& run) {
             !run.cases[i].metrics.empty())
             return i;
     throw std::runtime_error("no case completed");
+}
+
+struct Folder {
+    std::filesystem::path path = std::filesystem::temp_directory_path() / "rigor-history-test";
+    Folder() { std::filesystem::remove_all(path); }
+    ~Folder() { std::filesystem::remove_all(path); }
+};
+
+std::string textOf(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 TEST(History, EachRunHasItsValueAndAGapWhereItDoesNotHaveTheCase) {
@@ -81,6 +96,37 @@ TEST(History, TheTableHasARowForEachCaseOfEachRun) {
     }
     EXPECT_EQ(first, runs[0].cases.size());
     EXPECT_EQ(second, runs[1].cases.size());
+}
+
+/// Replays that two of the newest runs have are copied under names of their own, and named by their series.
+TEST(History, ReplaysOfTheNewestRunsAreBesideThePage) {
+    const Folder scratch;
+    std::vector<results::Run> runs;
+    for (const char* name : {"oldest", "older", "newest"}) {
+        runs.push_back(runNamed((scratch.path / name).string()));
+        std::filesystem::create_directories(scratch.path / name / "data");
+        writeFile(scratch.path / name / "data" / "replay-0-0.js",
+                  "rigorData(\"replay-0-0\",\"" + std::string(name) + "\");\n");
+    }
+    writeFile(scratch.path / "newest/data/replay-1-0.js", "rigorData(\"replay-1-0\",\"alone\");\n");
+    const auto replays = historyReplays(runs, 2);
+    ASSERT_EQ(replays.files.size(), 2u) << "one that a single run has is left out";
+    writeHistoryReplays(replays, scratch.path / "page");
+    EXPECT_EQ(textOf(scratch.path / "page" / "run-1-replay-0-0.js"),
+              "rigorData(\"run-1-replay-0-0\",\"older\");\n");
+    EXPECT_EQ(textOf(scratch.path / "page" / "run-2-replay-0-0.js"),
+              "rigorData(\"run-2-replay-0-0\",\"newest\");\n");
+    EXPECT_TRUE(std::filesystem::exists(scratch.path / "page" / "scene-0.js"));
+    const auto data = dataOf(historyPage(runs, {"", ""}, replays));
+    std::size_t named = 0;
+    for (const auto& s : data.at("series")) {
+        EXPECT_TRUE(s.at("replay")[0].is_null());
+        if (s.at("scene").is_null()) continue;
+        EXPECT_EQ(s.at("scenario"), runs[0].scenarios[0].name);
+        named += s.at("replay")[2] == "run-2-replay-0-0" ? 1 : 0;
+    }
+    EXPECT_GT(named, 0u);
+    EXPECT_TRUE(historyReplays(runs, 0).files.empty());
 }
 
 TEST(History, NoNameIsMarkup) {

@@ -30,6 +30,8 @@ export interface Series {
   time: Maybe[];
   low: Maybe[]; // 95 % interval of the median
   high: Maybe[];
+  scene: string | null; // name of the data file of the scenario; null: no replays are beside the page
+  replay: (string | null)[]; // name of the data file of a run's replay
 }
 
 /** Changes from a run to the next. */

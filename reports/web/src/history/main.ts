@@ -17,6 +17,7 @@ import { plotCard } from '../report/charts/plot.ts';
 import { themeButton } from '../report/theme.ts';
 import type { Change, History, Series } from './data.ts';
 import { type Mark, marksOf, weight } from './marks.ts';
+import { caseKey, closeReplay, replayable, replayBox } from './replays.ts';
 
 const data = JSON.parse(document.getElementById('history-data')?.textContent ?? '{}') as History;
 const palette = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#8C6D1F'];
@@ -78,6 +79,11 @@ function specRow(s: Change['specs'][number]): HTMLElement {
   );
 }
 
+const withReplay = new Set(replayable(data.series).map(caseKey));
+/** A link to the runs of a case side by side, where the page has them. */
+const replayLink = (key: string): Child =>
+  withReplay.has(key) ? [' ', el('a', { href: `#${new URLSearchParams({ replay: key })}` }, 'side by side')] : null;
+
 function changeNode(change: Change | null, index: number): HTMLElement {
   const title = `Run ${index + 1} to ${index + 2}: ${data.runs[index]?.name} → ${data.runs[index + 1]?.name}`;
   if (change === null) return el('div', null, el('h3', null, title), el('p', null, 'They have no case in common.'));
@@ -108,10 +114,12 @@ function changeNode(change: Change | null, index: number): HTMLElement {
       sign(v.worse),
       `${where(v)}: ${v.before} → ${v.after}`,
       v.reason ? `, ${v.reason}` : '',
+      replayLink(caseKey(v)),
     ]),
     listed(change.metrics, (m) => [
       sign(m.worse),
       `${where(m)}: ${words(m.metric)} ${value(m.before, m.unit)} → ${value(m.after, m.unit)}`,
+      replayLink(caseKey(m)),
     ]),
     table(
       ['Engine', 'Errors better', 'worse', 'same', 'p', 'Time of a step, after ÷ before', 'p'],
@@ -149,7 +157,8 @@ function lineOf(s: Series, index: number, label: string, of: 'error' | 'time'): 
   };
 }
 
-function scenarioNode(all: Series[]): HTMLElement {
+/** `replay`: the case whose runs are shown side by side; `changed` is told of another one. */
+function scenarioNode(all: Series[], replay: string | null, changed: (key: string | null) => void): HTMLElement {
   const first = all[0] as Series;
   const steps = new Set(all.map((s) => toNumber(s.dt))).size;
   const label = (s: Series) => s.label + (steps > 1 ? `, ${timeStep(s.dt)}` : '');
@@ -183,6 +192,7 @@ function scenarioNode(all: Series[]): HTMLElement {
     marks.length > mostListed
       ? el('p', { class: 'muted small' }, `and ${marks.length - mostListed} more changes`)
       : null,
+    replayBox(all, data.runs, palette, replay, changed),
     el('div', { class: 'lines' }, key),
     el(
       'div',
@@ -203,7 +213,6 @@ function scenarios(): HTMLElement {
   }));
   weighed.sort((a, b) => b.weight - a.weight);
   const engines = [...new Set(data.series.map((s) => s.engine))];
-  const query = new URLSearchParams(location.hash.slice(1));
   const list = el('div', null);
   const status = el('p', { class: 'muted small', role: 'status' });
   let most = mostCards;
@@ -211,28 +220,41 @@ function scenarios(): HTMLElement {
     type: 'search',
     placeholder: 'scenario',
     'aria-label': 'Scenario',
-    value: query.get('text'),
   });
   const engine = el(
     'select',
     { 'aria-label': 'Engine' },
-    ['', ...engines].map((e) => el('option', { value: e, selected: e === query.get('engine') }, e || 'all engines')),
+    ['', ...engines].map((e) => el('option', { value: e }, e || 'all engines')),
   );
   const more = el('button', { class: 'button' }, 'Show more');
+  let replay: string | null = null;
+  const keep = () => {
+    const kept = new URLSearchParams();
+    if (text.value) kept.set('text', text.value);
+    if (engine.value) kept.set('engine', engine.value);
+    if (replay) kept.set('replay', replay);
+    history.replaceState(null, '', `#${kept}`);
+  };
+  const replayed = (key: string | null) => {
+    replay = key;
+    for (const other of list.querySelectorAll<HTMLSelectElement>('[aria-label="Case to replay"]'))
+      if (other.value !== key) other.value = '';
+    keep();
+  };
   const draw = () => {
     const wanted = text.value.toLowerCase();
     const shown = weighed
       .map((g) => ({ ...g, all: g.all.filter((s) => !engine.value || s.engine === engine.value) }))
       .filter((g) => g.all.length > 0 && `${g.name} ${g.all[0]?.title}`.toLowerCase().includes(wanted));
+    const own = (g: { all: Series[] }) => Number(g.all.some((s) => caseKey(s) === replay));
+    shown.sort((a, b) => own(b) - own(a)); // the rest stays in its order
     dropPlots(list);
-    list.replaceChildren(...shown.slice(0, most).map((g) => scenarioNode(g.all)));
+    closeReplay();
+    list.replaceChildren(...shown.slice(0, most).map((g) => scenarioNode(g.all, replay, replayed)));
     const changed = shown.filter((g) => g.weight > 0).length;
     status.textContent = `${counted(shown.length, 'scenario')}, ${changed} with a change, those first`;
     more.hidden = shown.length <= most;
-    const kept = new URLSearchParams();
-    if (text.value) kept.set('text', text.value);
-    if (engine.value) kept.set('engine', engine.value);
-    history.replaceState(null, '', `#${kept}`);
+    keep();
   };
   text.addEventListener('input', draw);
   engine.addEventListener('change', draw);
@@ -240,7 +262,17 @@ function scenarios(): HTMLElement {
     most += mostCards;
     draw();
   });
-  draw();
+  /** Filters and replay as the address says. */
+  const restore = () => {
+    const query = new URLSearchParams(location.hash.slice(1));
+    text.value = query.get('text') ?? '';
+    engine.value = query.get('engine') ?? '';
+    replay = query.get('replay');
+    draw();
+    if (replay) requestAnimationFrame(() => list.firstElementChild?.scrollIntoView());
+  };
+  addEventListener('hashchange', restore);
+  restore();
   return section(
     'scenarios',
     'Every scenario over the runs',

@@ -54,7 +54,62 @@ function inOrder(scene: Scene, names: readonly string[]): Scene {
   };
 }
 
-export function mountReplay(element: HTMLElement, context: ReplayContext): ReplayHandle {
+/** What is in one picture or side by side, before it is drawn. */
+interface Content {
+  replay: Replay;
+  thinned: Map<FrameSource, () => Promise<FrameSource>>;
+}
+
+async function readOne(context: ReplayContext): Promise<Content> {
+  const load = context.load ?? (() => loadData(`replay-${context.index}-${context.step}`));
+  const replay = readReplay(await load(), context.colourOf);
+  const lastFirst = [...replay.sources].reverse(); // matched settings come last and keep the engine's colour
+  const own = distinguishable(lastFirst.map((source) => source.colour));
+  lastFirst.forEach((source, i) => {
+    source.colour = own[i] as string;
+  });
+  const served = location.protocol.startsWith('http');
+  const get = context.frames ?? (served ? fetchFrames : null);
+  const thinned = new Map<FrameSource, () => Promise<FrameSource>>();
+  replay.sources.forEach((source, i) => {
+    const { id, frames, stored } = replay.head.cases[i] as (typeof replay.head.cases)[number];
+    if (get && frames < (stored ?? 0)) thinned.set(source, () => fullSource(source, get(id)));
+  });
+  return { replay, thinned };
+}
+
+/** One engine's run in a replay file, and what it is called among those of other files. */
+export interface Part {
+  label: string;
+  spec: string;
+  load: () => Promise<ArrayBuffer>;
+}
+
+/** The runs of several files; the reference is that of the last one. */
+async function readParts(context: ReplayContext, parts: readonly Part[]): Promise<Content> {
+  const replays = await Promise.all(parts.map(async ({ load }) => readReplay(await load(), context.colourOf)));
+  const last = replays.at(-1) as Replay;
+  const sources = parts.map(({ label, spec }, i) => {
+    const { head, sources } = replays[i] as Replay;
+    if (head.bodies.join('\n') !== last.head.bodies.join('\n')) throw new Error('the runs have other bodies');
+    const source = sources.find((s) => s.spec === spec);
+    if (!source) throw new Error(`no frames of ${label} are stored`);
+    source.label = label;
+    source.spec = `${i + 1}|${spec}`;
+    source.colour = context.colourOf(spec, i);
+    return source;
+  });
+  return { replay: { ...last, sources }, thinned: new Map() };
+}
+
+export const mountReplay = (element: HTMLElement, context: ReplayContext): ReplayHandle =>
+  mount(element, context, () => readOne(context));
+
+/** Runs of several replay files of a scenario side by side, by one clock and one camera. */
+export const mountTogether = (element: HTMLElement, context: ReplayContext, parts: readonly Part[]): ReplayHandle =>
+  mount(element, context, () => readParts(context, parts));
+
+function mount(element: HTMLElement, context: ReplayContext, read: () => Promise<Content>): ReplayHandle {
   let stage: ReplayStage | null = null;
   let disposed = false;
   const root: ReplayElement = el('div', { class: 'replay' }, el('p', { class: 'replay-note' }, 'Loading the frames …'));
@@ -62,32 +117,20 @@ export function mountReplay(element: HTMLElement, context: ReplayContext): Repla
   const say = (text: string) => root.replaceChildren(el('p', { class: 'replay-note' }, text));
 
   const start = async () => {
-    let replay: Replay;
+    let content: Content;
     try {
-      const load = context.load ?? (() => loadData(`replay-${context.index}-${context.step}`));
-      replay = readReplay(await load(), context.colourOf);
+      content = await read();
     } catch (error) {
       say(`There is no replay: ${error instanceof Error ? error.message : String(error)}.`);
       return;
     }
     if (disposed) return;
-    const lastFirst = [...replay.sources].reverse(); // matched settings come last and keep the engine's colour
-    const own = distinguishable(lastFirst.map((source) => source.colour));
-    lastFirst.forEach((source, i) => {
-      source.colour = own[i] as string;
-    });
+    const { replay, thinned } = content;
     const sources: FrameSource[] = [...replay.sources];
     if (replay.reference) sources.push(replay.reference);
     try {
       root.replaceChildren();
       const scene = inOrder(readScene(context.scenario), replay.head.bodies);
-      const served = location.protocol.startsWith('http');
-      const get = context.frames ?? (served ? fetchFrames : null);
-      const thinned = new Map<FrameSource, () => Promise<FrameSource>>();
-      replay.sources.forEach((source, i) => {
-        const { id, frames, stored } = replay.head.cases[i] as (typeof replay.head.cases)[number];
-        if (get && frames < (stored ?? 0)) thinned.set(source, () => fullSource(source, get(id)));
-      });
       root.stage = stage = new ReplayStage(root, scene, sources, { dt: replay.head.dt, ...context }, thinned);
     } catch (error) {
       if (!(error instanceof NoWebGL)) console.error(error);

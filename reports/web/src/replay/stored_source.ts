@@ -40,8 +40,8 @@ export interface SourceLook {
 }
 
 export class StoredSource implements FrameSource {
-  readonly label: string;
-  readonly spec: string;
+  label: string;
+  spec: string;
   colour: string;
   readonly ghost: boolean;
   readonly note: string;

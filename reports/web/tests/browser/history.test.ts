@@ -7,7 +7,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, test } from 'node:test';
 import type { History } from '../../src/history/data.ts';
-import { makeHistory, reportOf, screenshots, skip } from '../browser.ts';
+import { makeHistory, program, reportOf, screenshots, skip, smokeRun } from '../browser.ts';
 
 describe('the history of three runs', { skip }, () => {
   const it = reportOf(() => makeHistory('history'));
@@ -57,6 +57,34 @@ describe('the history of three runs', { skip }, () => {
     const hash = await it.page.evaluate(() => location.hash);
     await it.open(hash);
     assert.equal(await it.page.locator('#scenarios article').count(), found.length);
+    it.clean();
+  });
+});
+
+describe('two runs with their replays', { skip }, () => {
+  const it = reportOf(async () => {
+    const run = await smokeRun();
+    const folder = join(run, '..', 'two_runs');
+    program('bin/rigor', 'history', run, run, '--out', folder);
+    return folder;
+  });
+
+  test('show a case of both side by side, by one clock; the address keeps it', async () => {
+    await it.open();
+    const box = it.page.locator('article[data-scenario="box_stack"] select');
+    await it.page.getByLabel('Scenario').fill('box_stack');
+    await box.first().selectOption({ index: 1 });
+    await it.page.waitForSelector('.replay .label small:not(:empty)');
+    assert.equal(await it.page.locator('.replay .label b:not(.ghost)').count(), 2);
+    await it.page.click('.replay [data-action="forward"]');
+    const states = await it.page.locator('.replay .label small').allTextContents();
+    assert.match(states[0] ?? '', /frame 2/);
+    assert.equal(states[0], states[1]);
+    await it.page.screenshot({ path: join(screenshots, 'two_runs.png') });
+    const hash = await it.page.evaluate(() => location.hash);
+    await it.open(hash);
+    await it.page.waitForSelector('.replay .label small:not(:empty)');
+    assert.match(await it.text('.replay .label b'), /^run 1, smoke/);
     it.clean();
   });
 });

@@ -21,6 +21,8 @@ const series: Series = {
   time: [1, 1.05, 0.5],
   low: [0.9, 0.95, 0.45],
   high: [1.1, 1.15, 0.55],
+  scene: null,
+  replay: [null, null, null],
 };
 const nothing: Change = {
   worse: false,

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "reports/page/history_replays.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "reports/encoding/data_files.hpp"
+#include "reports/encoding/text.hpp"
+#include "reports/model/derived_runs.hpp"
+#include "reports/model/view_model.hpp"
+#include "reports/replay/data.hpp"
+
+namespace rigor::report {
+namespace {
+
+namespace fs = std::filesystem;
+using results::Run;
+
+struct Found {
+    std::size_t run;
+    fs::path from;
+    std::string name;
+};
+using ByCase = std::map<std::pair<std::string, double>, std::vector<Found>>;
+
+/// Replay files beside the report of a run, by scenario and time step.
+void findReplays(const Run& run, std::size_t index, ByCase& found) {
+    const Run shown = withoutDerivedRuns(run);
+    const ViewModel view(shown);
+    for (std::size_t i = 0; i < shown.scenarios.size(); ++i) {
+        const auto steps = replaySteps(view, i);
+        for (std::size_t j = 0; j < steps.size(); ++j) {
+            const std::string name = replayName(i, j);
+            const fs::path from = fs::path(run.directory) / "data" / (name + ".js");
+            if (fs::exists(from))
+                found[{shown.scenarios[i].name, steps[j]}].push_back(
+                    {index, from, "run-" + std::to_string(index) + "-" + name});
+        }
+    }
+}
+
+/// A data file under another name.
+std::string renamed(const fs::path& from, const std::string& name) {
+    std::ifstream in(from, std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    const auto comma = text.find(',');
+    if (!in || comma == std::string::npos)
+        throw std::runtime_error(from.string() + ": cannot be read as a data file of a report");
+    return "rigorData(\"" + name + "\"" + text.substr(comma);
+}
+
+}  // namespace
+
+HistoryReplays historyReplays(const std::vector<Run>& runs, std::size_t newest) {
+    ByCase found;
+    for (std::size_t r = runs.size() - std::min(newest, runs.size()); r < runs.size(); ++r)
+        findReplays(runs[r], r, found);
+    std::map<std::string, std::string> texts;  // those of the newest run come last and stay
+    for (const Run& run : runs)
+        for (const auto& scenario : run.scenarios) texts[scenario.name] = scenario.text;
+    HistoryReplays out;
+    for (const auto& [key, all] : found) {
+        if (all.size() < 2) continue;
+        const auto& [scenario, dt] = key;
+        for (const Found& f : all) {
+            out.files.push_back({f.from, f.name});
+            out.names[{f.run, scenario, dt}] = f.name;
+        }
+        const std::string scene = "scene-" + std::to_string(out.scenes.size());
+        if (out.scenes.emplace(scenario, scene).second) out.texts[scene] = texts[scenario];
+    }
+    return out;
+}
+
+void writeHistoryReplays(const HistoryReplays& replays, const fs::path& folder) {
+    if (replays.files.empty()) return;
+    fs::create_directories(folder);
+    for (const auto& [name, text] : replays.texts) writeFile(folder / (name + ".js"), dataFile(name, text));
+    for (const auto& file : replays.files)
+        writeFile(folder / (file.name + ".js"), renamed(file.from, file.name));
+}
+
+}  // namespace rigor::report

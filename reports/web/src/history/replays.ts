@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The runs of one case side by side: one clock and one camera for all of them.
+import { newCursor } from '../common/cursor.ts';
+import { loadData, loadJson } from '../common/data_files.ts';
+import { el } from '../common/elements.ts';
+import { timeStep } from '../common/format.ts';
+import type { Json } from '../replay/json.ts';
+import { mountTogether, type ReplayHandle } from '../replay/mount.ts';
+import type { HistoryRun, Series } from './data.ts';
+
+/** Runs of a case that have a replay. */
+const replaysOf = (s: Series) => s.replay.flatMap((name, run) => (name === null ? [] : [{ name, run }]));
+
+/** Name of a case in the address. */
+export const caseKey = (s: Pick<Series, 'scenario' | 'spec' | 'dt'>): string => `${s.scenario}~${s.spec}~${s.dt}`;
+
+/** Cases of which two runs have a replay. */
+export const replayable = (all: readonly Series[]): Series[] =>
+  all.filter((s) => s.scene !== null && replaysOf(s).length > 1);
+
+let shown: ReplayHandle | null = null;
+
+export function closeReplay(): void {
+  shown?.dispose();
+  shown = null;
+}
+
+/** Shows the runs of a case in an element, in place of a replay that is shown elsewhere. */
+async function show(at: HTMLElement, s: Series, runs: readonly HistoryRun[], colours: readonly string[]) {
+  closeReplay();
+  const parts = replaysOf(s).map(({ name, run }) => ({
+    label: `run ${run + 1}, ${runs[run]?.name}: ${s.label}`,
+    spec: s.spec,
+    load: () => loadData(name),
+  }));
+  const scenario = await loadJson<Json>(s.scene as string);
+  shown = mountTogether(
+    at,
+    {
+      name: s.scenario,
+      scenario,
+      index: 0,
+      step: 0,
+      cursor: newCursor(),
+      colourOf: (_, i) => colours[Math.max(0, i) % colours.length] as string,
+      state: '',
+      onState: () => {},
+    },
+    parts,
+  );
+}
+
+/**
+ * The choice of a case of a scenario and its replays; null where there are none. `chosen`: the case that is shown at
+ * once; `changed` is told of another one.
+ */
+export function replayBox(
+  all: readonly Series[],
+  runs: readonly HistoryRun[],
+  colours: readonly string[],
+  chosen: string | null,
+  changed: (key: string | null) => void,
+): HTMLElement | null {
+  const cases = replayable(all);
+  if (cases.length === 0) return null;
+  const holder = el('div', null);
+  const steps = new Set(cases.map((s) => s.dt)).size;
+  const select = el(
+    'select',
+    { 'aria-label': 'Case to replay' },
+    el('option', { value: '' }, 'Replay side by side …'),
+    cases.map((s) => el('option', { value: caseKey(s) }, s.label + (steps > 1 ? `, ${timeStep(s.dt)}` : ''))),
+  );
+  const showChosen = () => {
+    const found = cases.find((s) => caseKey(s) === select.value);
+    if (found) void show(holder, found, runs, colours);
+    else closeReplay();
+  };
+  select.addEventListener('change', () => {
+    changed(select.value || null);
+    showChosen();
+  });
+  if (cases.some((s) => caseKey(s) === chosen)) {
+    select.value = chosen as string;
+    showChosen();
+  }
+  return el('div', null, el('div', { class: 'controls' }, select), holder);
+}
