@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "reports/encoding/text.hpp"
+#include "validation/results/clock.hpp"
 #include "validation/results/judgement.hpp"
 #include "validation/results/spec_labels.hpp"
 
@@ -69,7 +70,7 @@ std::vector<SpecColumn> columnsOf(const Run& run) {
                      [&](const SpecColumn& a, const SpecColumn& b) { return rank(a) < rank(b); });
     for (SpecColumn& c : columns)
         if (const auto place = static_cast<std::size_t>(rank(c)); place < run.engines.size())
-            c.clock = clockOf(run.engines[place]);
+            c.clock = results::clockOf(run.engines[place]);
     chooseDashes(columns);
     return columns;
 }

@@ -199,10 +199,6 @@ std::string regressionSentence(const results::CaseRow& row);
 Mechanism rankingsOver(const ViewModel& view, const std::vector<std::size_t>& scenarios);
 /// Costs of a step by column.
 std::vector<StepCost> stepCosts(const ViewModel& view);
-/// Label of an engine's times where they are not those of native code in its process; "" otherwise, and in runs that
-/// did not store it.
-std::string clockOf(const results::EngineRow& engine);
-
 /// Columns with a cost, modules first, then by clock; of a clock the cheapest by the mean ratio first.
 std::vector<std::size_t> byCost(const std::vector<StepCost>& costs);
 /// The ratios of every case of the run.

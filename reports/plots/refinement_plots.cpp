@@ -3,6 +3,7 @@
 //
 // Scenarios that were run at several time steps: error over time step, and error over cost.
 #include <algorithm>
+#include <set>
 
 #include "reports/encoding/text.hpp"
 #include "reports/model/refinements.hpp"
@@ -12,14 +13,24 @@
 namespace rigor::report {
 namespace {
 
-/// One line per engine spec: its cases from the finest step to the coarsest.
-Plot refinementPlot(const ViewModel& view, const Refinement& refinement, bool overCost) {
+/// Clocks of the columns, that of modules first: costs by different ones are in plots of their own.
+std::set<std::string> clocksOf(const ViewModel& view) {
+    std::set<std::string> clocks;
+    for (const auto& column : view.columns()) clocks.insert(column.clock);
+    return clocks;
+}
+
+/// One line per engine spec: its cases from the finest step to the coarsest. Over cost, the specs of one clock.
+Plot refinementPlot(const ViewModel& view, const Refinement& refinement, bool overCost,
+                    const std::string& clock) {
     Plot plot;
-    plot.title = refinement.scenario + (overCost ? ": error against cost" : ": convergence");
+    plot.title = refinement.scenario + (overCost ? ": error against cost" : ": convergence") +
+                 (clock.empty() ? "" : " (" + clock + ")");
     plot.xLabel = overCost ? "wall time of all steps [s]" : "time step [s]";
     plot.yLabel = refinement.metric + (refinement.unit == "1" ? "" : " [" + refinement.unit + "]");
     plot.logarithmic = plot.logarithmicX = plot.marked = true;
     for (const auto& column : view.columns()) {
+        if (overCost && column.clock != clock) continue;
         PlotLine line{column.label, colourOf(view, column), column.dash, {}, {}};
         std::vector<const results::CaseRow*> cases;
         for (const auto& c : view.run().cases)
@@ -41,13 +52,16 @@ Plot refinementPlot(const ViewModel& view, const Refinement& refinement, bool ov
 
 std::vector<NamedPlot> refinementPlots(const ViewModel& view) {
     std::vector<NamedPlot> plots;
-    for (const Refinement& refinement : refinements(view))
-        for (const bool overCost : {false, true}) {
-            const Plot plot = refinementPlot(view, refinement, overCost);
-            if (plot.lines.empty()) continue;
-            plots.push_back(namedPlot(
-                fileNamePart(refinement.scenario) + (overCost ? "-work-precision" : "-convergence"), plot));
-        }
+    const auto add = [&](const std::string& name, const Plot& plot) {
+        if (!plot.lines.empty()) plots.push_back(namedPlot(name, plot));
+    };
+    for (const Refinement& refinement : refinements(view)) {
+        const std::string name = fileNamePart(refinement.scenario);
+        add(name + "-convergence", refinementPlot(view, refinement, false, ""));
+        for (const std::string& clock : clocksOf(view))
+            add(name + "-work-precision" + (clock.empty() ? "" : "-" + fileNamePart(clock)),
+                refinementPlot(view, refinement, true, clock));
+    }
     return plots;
 }
 

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "validation/comparison/order.hpp"
+#include "validation/results/clock.hpp"
 #include "validation/results/values.hpp"
 
 namespace rigor::validation {
@@ -180,6 +181,8 @@ std::vector<results::OrderRow> observedOrders(const Run& run) {
 
 std::vector<results::FairnessRow> fairComparisons(const Run& run) {
     std::vector<results::FairnessRow> rows;
+    std::map<std::string, std::string> clocks;
+    for (const auto& engine : run.engines) clocks[engine.name] = results::clockOf(engine);
     for (const auto& scenario : run.scenarios) {
         for (const auto& metric : metricsOf(run, scenario.name, [](const MetricRow& m) {
                  return m.subject.empty() && m.kind == "exact";
@@ -189,15 +192,15 @@ std::vector<results::FairnessRow> fairComparisons(const Run& run) {
             const std::string unit = wholeScene(*points.front().row, metric)->unit;
             double first = 0.0;
             for (const auto& p : points) first = std::max(first, p.row->dt);
-            Competitors competitors;
+            std::map<std::string, Competitors> byClock;
             for (const auto& p : points) {
-                competitors[p.competitor].push_back(&p);
+                byClock[clocks[p.row->engine]][p.competitor].push_back(&p);
                 if (p.row->dt != first) continue;
                 if (p.row->preset == "default") rows.push_back(rowOf("engine_defaults", metric, unit, p, {}));
                 if (p.row->preset == "matched")
                     rows.push_back(rowOf("matched_settings", metric, unit, p, {}));
             }
-            addChosen(metric, unit, competitors, rows);
+            for (const auto& [clock, competitors] : byClock) addChosen(metric, unit, competitors, rows);
         }
     }
     return rows;

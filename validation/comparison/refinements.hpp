@@ -40,7 +40,8 @@ std::vector<results::OrderRow> observedOrders(const results::Run& run);
 ///                     competitor whose cheapest run costs most, so that each has one
 ///   equal_accuracy    cheapest run of each competitor within a target: the least error of the competitor
 ///                     whose least error is largest, so that each reaches it
-/// The last two where competitors were run at three settings or more; those with fewer do not take part.
+/// The last two where competitors were run at three settings or more; those with fewer do not take part. They compare
+/// competitors whose times are of the same clock.
 std::vector<results::FairnessRow> fairComparisons(const results::Run& run);
 
 }  // namespace rigor::validation

@@ -136,5 +136,25 @@ TEST(Refinements, TwoSettingsAreNoRefinement) {
     EXPECT_EQ(fairComparisons(run).size(), 2u);
 }
 
+/// Two more engines by another clock: each clock has a budget and a target of its own.
+TEST(Refinements, TimesOfDifferentClocksAreNotCompared) {
+    auto run = twoEngines();
+    run.engines.resize(4);
+    for (std::size_t i = 0; i < 4; ++i) run.engines[i].name = std::vector{"fast", "slow", "one", "two"}[i];
+    for (const std::size_t guest : {2u, 3u}) run.engines[guest].capabilities = R"({"clock":"guest, wasm"})";
+    const auto alone = fairComparisons(run);
+    for (const double dt : {1.0 / 50.0, 1.0 / 100.0, 1.0 / 200.0}) {
+        run.cases.push_back(caseRow("one:preset=default", "default", dt, 50.0 * dt, 1e-3));
+        run.cases.push_back(caseRow("two:preset=default", "default", dt, 60.0 * dt, 2e-3));
+    }
+    const auto rows = fairComparisons(run);
+    for (const char* mode : {"equal_time", "equal_accuracy"}) {
+        EXPECT_EQ(find(rows, mode, "fast").limit, find(alone, mode, "fast").limit);
+        EXPECT_EQ(find(rows, mode, "fast").dt, find(alone, mode, "fast").dt);
+        EXPECT_EQ(find(rows, mode, "one").limit, find(rows, mode, "two").limit);
+    }
+    EXPECT_DOUBLE_EQ(find(rows, "equal_time", "one").limit.value(), 50 * 2e-3);
+}
+
 }  // namespace
 }  // namespace rigor::validation

@@ -31,8 +31,13 @@ export function kinds(columns: Column[]): { title: string; columns: Column[] }[]
     { title: 'Guests', columns: guests },
   ].filter((kind) => kind.columns.length > 0);
 }
+/** Items whose times are of one clock. */
+export interface Group<T> {
+  clock: string;
+  items: T[];
+}
 /** Items by clock, those of modules first. */
-export function byClock<T>(list: T[], clock: (item: T) => string): { clock: string; items: T[] }[] {
+export function byClock<T>(list: readonly T[], clock: (item: T) => string): Group<T>[] {
   const found = new Map<string, T[]>();
   for (const item of list) found.set(clock(item), [...(found.get(clock(item)) ?? []), item]);
   const groups = [...found].map(([name, items]) => ({ clock: name, items }));

@@ -8,8 +8,8 @@ import { duration, format, full, timeStep, toNumber, unitText, words } from '../
 import type { Line } from '../charts/line.ts';
 import { dropPlots } from '../charts/live_plots.ts';
 import { plotCard } from '../charts/plot.ts';
-import type { Case, Fairness, Order, ScenarioData } from '../data.ts';
-import { engineColour, labelOf, run } from '../run.ts';
+import type { Case, Column, Fairness, Order, ScenarioData } from '../data.ts';
+import { byClock, clockOf, columnOf, engineColour, type Group, labelOf, run } from '../run.ts';
 import { durationCell, headRow, numberCell, panel, scroll, select, stepCell } from '../widgets.ts';
 import type { Context } from './context.ts';
 
@@ -23,9 +23,15 @@ const modes: [mode: string, title: string, meaning: string][] = [
 /** Wall time of all steps [s]; NaN where it was not measured. */
 const steppingTime = (c: Case) => toNumber(c.timings.find((x) => x.phase === 'step')?.median) * c.steps;
 
+/** Clock of a spec's times. */
+const clockOfSpec = (spec: string): string => {
+  const column = columnOf(spec);
+  return column ? clockOf(column) : '';
+};
+
 /** A line per column with two points at least, over the time step or over the cost. */
-function refinementLines(data: ScenarioData, metric: string, overCost: boolean): Line[] {
-  return run.columns.flatMap((column) => {
+function refinementLines(data: ScenarioData, metric: string, columns: readonly Column[], overCost: boolean): Line[] {
+  return columns.flatMap((column) => {
     const points = data.cases
       .filter((c) => c.spec === column.spec)
       .map((c) => {
@@ -73,8 +79,13 @@ function fairnessTable(rows: Fairness[]): HTMLElement {
   const part = ([mode, title, meaning]: (typeof modes)[number]) => {
     const by = (r: Fairness) => toNumber(mode === 'equal_accuracy' ? r.cost : r.error);
     const of = rows.filter((r) => r.mode === mode).sort((a, b) => by(a) - by(b));
-    if (of[0] === undefined) return null;
-    const about = el('span', { class: 'muted small' }, ` — ${meaning}${limit(mode, of[0])}`);
+    // limits hold among times of the same clock
+    const chosen = mode === 'equal_time' || mode === 'equal_accuracy';
+    return byClock(of, (r) => (chosen ? clockOfSpec(r.spec) : '')).map((group) => body(mode, title, meaning, group));
+  };
+  const body = (mode: string, title: string, meaning: string, { clock, items: of }: Group<Fairness>) => {
+    const whose = clock ? `, times of the clock “${clock}”` : '';
+    const about = el('span', { class: 'muted small' }, ` — ${meaning}${limit(mode, of[0] as Fairness)}${whose}`);
     return el(
       'tbody',
       { 'data-mode': mode },
@@ -92,14 +103,7 @@ function fairnessTable(rows: Fairness[]): HTMLElement {
     );
   };
   const heads = headRow(['Engine', 'Error', 'Time of all steps', 'Time step'], (i) => i > 0);
-  return scroll(
-    el(
-      'table',
-      { id: 'fairness' },
-      heads,
-      modes.map(part).filter((p) => p !== null),
-    ),
-  );
+  return scroll(el('table', { id: 'fairness' }, heads, modes.flatMap(part)));
 }
 
 export function refinement({ scenario, data, cursor }: Context): HTMLElement | null {
@@ -110,12 +114,17 @@ export function refinement({ scenario, data, cursor }: Context): HTMLElement | n
     dropPlots(body);
     const orders = data.orders.filter((o) => o.metric === metric);
     const fairness = data.fairness.filter((f) => f.metric === metric);
-    const axes: [title: string, xTitle: string, overCost: boolean][] = [
-      ['Convergence: error over time step', 'time step [s]', false],
-      ['Work and precision: error over time of all steps', 'wall time of all steps [s]', true],
+    const axes: [title: string, xTitle: string, columns: readonly Column[], overCost: boolean][] = [
+      ['Convergence: error over time step', 'time step [s]', run.columns, false],
+      ...byClock(run.columns, clockOf).map(({ clock, items }): (typeof axes)[number] => [
+        `Work and precision: error over time of all steps${clock ? `, of the clock “${clock}”` : ''}`,
+        'wall time of all steps [s]',
+        items,
+        true,
+      ]),
     ];
-    const cards = axes.flatMap(([title, xTitle, overCost]) => {
-      const lines = refinementLines(data, metric, overCost);
+    const cards = axes.flatMap(([title, xTitle, columns, overCost]) => {
+      const lines = refinementLines(data, metric, columns, overCost);
       if (lines.length === 0) return [];
       const axes = { xTitle, xUnit: 's', unit: orders[0]?.unit ?? '', logX: true, logY: true, tall: true };
       return [plotCard({ title, name: title, ...axes, lines: lines.filter((l) => !cursor.hidden.value.has(l.key)) })];
