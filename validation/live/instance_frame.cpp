@@ -210,6 +210,9 @@ Packet instanceFrame(InstanceWorld& instance, bool stages) {
     if (!before.empty()) instance.world().readContacts(contacts);
     addContacts(packet, contacts, before, instance.states());
     header["counters"] = counters(instance.world().counters());
+    if (const auto history = instance.history())
+        header["history"] = {
+            {"bytes", history->bytes}, {"most", InstanceWorld::kMostKeptBytes}, {"every", history->every}};
     if (const auto pull = instance.pull())
         header["drag"] = {{"body", instance.drag()->body},
                           {"point", vector(pull->point)},

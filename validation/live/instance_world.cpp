@@ -15,8 +15,6 @@ using adapter::BadInput;
 using scenario::Scenario;
 using scenario::Vec3;
 
-constexpr std::size_t kMostKeptBytes = std::size_t{64} << 20;
-
 }  // namespace
 
 InstanceWorld::InstanceWorld(Scenario scenario, adapter::EngineSpec spec, double dt)
@@ -129,6 +127,11 @@ void InstanceWorld::keep() {
     }
 }
 
+std::optional<InstanceWorld::History> InstanceWorld::history() const {
+    if (world_->snapshots() == nullptr) return std::nullopt;
+    return History{keptBytes_, keepEvery_};
+}
+
 /// Restores the last snapshot up to `steps`. False: there is none, or the world does not accept it any more.
 bool InstanceWorld::restore(std::size_t steps) {
     if (world_->snapshots() == nullptr) return false;
@@ -147,9 +150,12 @@ void InstanceWorld::goTo(std::size_t steps) {
     if (steps <= stepper_->steps()) {
         while (inStep()) world_->staged()->runStage();
         watch(false);
-        if (!restore(steps)) {
+        // The step that ends there is taken again: contacts and counts are those of the world's last step.
+        if (steps == 0) {
             build();
-            restore(steps);  // a joint may have broken since
+        } else if (!restore(steps - 1)) {
+            build();
+            restore(steps - 1);  // a joint may have broken since
         }
     }
     nonFinite_.clear();

@@ -54,6 +54,14 @@ class InstanceWorld {
     /// Goes to the state after `steps` steps from the start and repeats the drags in between.
     void goTo(std::size_t steps);
 
+    /// Snapshots that goTo() begins at.
+    struct History {
+        std::size_t bytes, every;  ///< all of them; one in so many steps
+    };
+    static constexpr std::size_t kMostKeptBytes = std::size_t{64} << 20;
+    /// Empty where the engine takes none.
+    std::optional<History> history() const;
+
     /// Sets the drag that acts from the next step on; empty: none. Throws adapter::BadInput.
     void drag(const std::optional<Drag>& drag);
     const std::optional<Drag>& drag() const { return drag_; }

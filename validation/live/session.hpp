@@ -81,6 +81,7 @@ class Session {
     void step(long by);
     void stage();
     void reset();
+    void restart(int id);
     void drag(const nlohmann::json& request, bool release);
     void remove(int id);
     nlohmann::json add(const nlohmann::json& request);

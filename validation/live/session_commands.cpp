@@ -84,6 +84,8 @@ json Session::command(const json& given) {
             stage();
         else if (name == "reset")
             reset();
+        else if (name == "restart")
+            restart(wholeNumber(request, "instance", -1));
         else if (name == "drag" || name == "release")
             drag(request, name == "release");
         else if (name == "add")
@@ -172,6 +174,19 @@ void Session::reset() {
         auto fresh = makeInstance(instance->plan);
         gone.push_back(std::exchange(instance, std::move(fresh)));
     }
+}
+
+/// A new process for an instance that has ended. It comes to the session's time like one that is added.
+void Session::restart(int id) {
+    std::unique_ptr<InstanceSlot> gone;  // ends after the lock: its thread needs it
+    const std::lock_guard lock(clock_.mutex);
+    const auto it = std::find_if(instances_.begin(), instances_.end(),
+                                 [id](const auto& instance) { return instance->plan.id == id; });
+    if (it == instances_.end()) throw CommandError("no such instance");
+    if ((*it)->alive() || (*it)->state() == InstanceSlot::State::Loading)
+        throw CommandError("the instance has not ended");
+    auto fresh = makeInstance((*it)->plan);
+    gone = std::exchange(*it, std::move(fresh));
 }
 
 void Session::drag(const json& request, bool release) {

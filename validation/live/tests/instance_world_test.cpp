@@ -86,6 +86,30 @@ TEST_P(Instances, ContactsAreCarriedAlongWithTheirBodies) {
     EXPECT_GT(ofBlock, 0u);
 }
 
+/// What is counted belongs to the step that is shown, not to the one that was taken last.
+TEST_P(Instances, CountsAfterAStepBackAreThoseOfThatStep) {
+    const auto world = instance(GetParam());
+    const auto counted = [&] {
+        const Packet packet = Packet::decode(instanceFrame(*world, false).encode());
+        nlohmann::json shown{{"points", packet.arrays.integers("contacts/body_b").size()}};
+        for (const char* key : {"contacts", "iterations", "residual"})
+            shown[key] = packet.header.at("counters").value(key, -1.0);
+        return shown;
+    };
+    std::vector<nlohmann::json> seen{counted()};
+    for (int i = 0; i < 100; ++i) {
+        world->advance(1, kLong);
+        seen.push_back(counted());
+    }
+    std::size_t landing = 50;
+    while (landing < 100 && seen[landing].at("points") == seen[50].at("points")) ++landing;
+    ASSERT_LT(landing, 100u) << "the ball lands in this time";
+    for (const std::size_t steps : {landing, landing - 1, std::size_t{1}, std::size_t{0}}) {
+        world->goTo(steps);
+        EXPECT_EQ(counted(), seen[steps]) << steps;
+    }
+}
+
 TEST_P(Instances, ADragPullsABodyToItsTarget) {
     const auto world = instance(GetParam());
     world->drag(Drag{2, {0, 0, 0}, {1, 4, 2}, 200.0});

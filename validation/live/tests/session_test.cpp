@@ -120,6 +120,11 @@ TEST_F(Sessions, EnginesThatFailLeaveTheOthersAlone) {
     EXPECT_EQ(viewer_->instance(3)["state"], "ready");
     EXPECT_EQ(viewer_->instance(4)["state"], "bad_input");
     EXPECT_THAT(viewer_->instance(4)["message"].get<std::string>(), testing::HasSubstr("no_such_engine"));
+    EXPECT_THROW(send({{"command", "restart"}, {"instance", 3}}), CommandError) << "it runs";
+    send({{"command", "pause"}});
+    send({{"command", "restart"}, {"instance", viewer_->instance(0)["id"]}});
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->instance(0)["state"] != "loading"; }));
+    EXPECT_EQ(viewer_->instance(2)["state"], "non_finite") << "the others are left alone";
     send({{"command", "reset"}});
     EXPECT_TRUE(viewer_->until([&] {
         return viewer_->instance(0)["state"] == "ready" && viewer_->instance(2)["state"] == "ready";

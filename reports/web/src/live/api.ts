@@ -67,6 +67,7 @@ export interface FrameHead {
   stage: StageState;
   has_stages: boolean; // the arrays of stages are there
   step_seconds?: number;
+  history?: { bytes: number; most: number; every: number }; // snapshots for going back; a snapshot every so many steps
   drag?: DragState;
   broken_joints: number[];
 }

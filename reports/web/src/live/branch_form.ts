@@ -76,6 +76,7 @@ export class BranchForm {
       placeholder: 'gravity=[0,-1.6,0]\nbodies.block.mass=5',
       'aria-label': 'Values of the scenario, KEY=VALUE a line',
     });
+    const refused = el('p', { class: 'refused', role: 'alert' });
     const form = el(
       'form',
       { method: 'dialog' },
@@ -84,6 +85,7 @@ export class BranchForm {
       el('label', {}, el('span', {}, 'engine'), choice),
       own,
       el('label', { class: 'wide' }, el('span', {}, 'values of the scenario'), values),
+      refused,
       el(
         'div',
         { class: 'line' },
@@ -91,12 +93,16 @@ export class BranchForm {
         el('button', { type: 'button', onclick: () => this.element.close() }, 'Cancel'),
       ),
     );
-    form.addEventListener('submit', () => {
+    form.addEventListener('submit', async (event) => {
+      event.preventDefault(); // it closes when the server has taken it: what was typed stays otherwise
       const set = overrides(values.value);
       const request: Record<string, unknown> = { instance: instance.id, set };
       if (choice.value !== '') request.spec = choice.value;
       else request.options = changes(settings, Object.fromEntries(this.#chosen(own)));
-      void this.#session.send({ command: 'branch', ...request });
+      const say = (text: string) => {
+        refused.textContent = text;
+      };
+      if (await this.#session.send({ command: 'branch', ...request }, say)) this.element.close();
     });
     this.element.replaceChildren(form);
     this.element.showModal();

@@ -5,7 +5,7 @@
 // says so in words and by its mark.
 import { el } from '../common/elements.ts';
 import type { Engine, InstanceState } from './api.ts';
-import { instanceLine } from './labels.ts';
+import { historyLine, instanceLine } from './labels.ts';
 import type { SessionView } from './session_view.ts';
 
 const marks: Record<InstanceState['state'], string> = {
@@ -43,12 +43,14 @@ export class InstancesPanel {
       placeholder: 'engine, or a spec',
       'aria-label': 'Spec of another instance',
     });
-    const submit = (event: Event) => {
+    const refused = el('p', { class: 'refused', role: 'alert' });
+    const say = (text: string) => {
+      refused.textContent = text;
+    };
+    const submit = async (event: Event) => {
       event.preventDefault();
       const spec = this.#add.value.trim();
-      if (spec === '') return;
-      this.#add.value = '';
-      void session.send({ command: 'add', spec });
+      if (spec !== '' && (await session.send({ command: 'add', spec }, say))) this.#add.value = '';
     };
     this.element = el(
       'section',
@@ -56,6 +58,7 @@ export class InstancesPanel {
       el('h2', {}, 'Instances'),
       this.#list,
       el('form', { class: 'line', onsubmit: submit }, this.#add, this.#known, el('button', {}, 'Add from the start')),
+      refused,
     );
   }
 
@@ -78,7 +81,8 @@ export class InstancesPanel {
     for (const instance of instances) {
       const source = this.#session.sources.get(instance.id);
       const line = this.#list.querySelector(`[data-instance="${instance.id}"] .where`);
-      if (line && source) line.textContent = instanceLine(source, false);
+      if (!line || !source) continue;
+      line.textContent = [instanceLine(source, false), historyLine(source)].filter(Boolean).join(' · ');
     }
   }
 
@@ -92,6 +96,7 @@ export class InstancesPanel {
 
   #row(instance: InstanceState): HTMLElement {
     const alive = instance.state === 'ready' || instance.state === 'non_finite';
+    const ended = !alive && instance.state !== 'loading';
     const act = (text: string, title: string, name: string, action: () => void, able = true) =>
       el('button', { type: 'button', title, onclick: action, 'data-action': name, disabled: !able }, text);
     const colour = this.#session.sources.get(instance.id)?.colour ?? '';
@@ -122,6 +127,16 @@ export class InstancesPanel {
           alive,
         ),
         act('Save', 'What is seen here as a scenario file', 'save', this.#with(instance.id, this.#save), alive),
+        ended
+          ? act(
+              'Start again',
+              'A new process for this instance, up to the time of the others; Home begins anew with all',
+              'restart',
+              () => {
+                void this.#session.send({ command: 'restart', instance: instance.id });
+              },
+            )
+          : null,
         act('Remove', 'End this instance', 'remove', () => {
           void this.#session.send({ command: 'remove', instance: instance.id });
         }),

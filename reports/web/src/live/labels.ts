@@ -7,6 +7,16 @@ import { counted, duration, format } from '../common/format.ts';
 import type { ReplayView } from '../replay/view.ts';
 import type { InstanceSource } from './instance_source.ts';
 
+const mebibytes = (bytes: number) => format(bytes / 2 ** 20, 2);
+
+/** Memory of the snapshots that steps back begin at, "history 3.1 of 64 MiB, every 2 steps"; "" without them. */
+export function historyLine(source: InstanceSource): string {
+  const history = source.head?.history;
+  if (!history) return '';
+  const every = history.every > 1 ? `, every ${history.every} steps` : '';
+  return `history ${mebibytes(history.bytes)} of ${mebibytes(history.most)} MiB${every}`;
+}
+
 /** "t = 0.5 s · step 60 · 12 contacts · 8 iterations · 0.3 ms a step". */
 export function instanceLine(source: InstanceSource, withNote = true): string {
   const head = source.head;

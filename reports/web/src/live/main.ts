@@ -114,6 +114,9 @@ async function show(first: number): Promise<void> {
 session.onSay = (text) => {
   said.textContent = text;
 };
+session.onEnd = (text) => {
+  document.body.prepend(el('p', { class: 'ended', role: 'alert' }, text));
+};
 session.onNews = (others) => {
   const state = session.state as api.SessionState;
   const first = state.instances[0];

@@ -16,18 +16,23 @@ export class SessionView {
   onNews: ((instances: boolean) => void) | null = null;
   /** Something to be read by the person; "" takes it away. */
   onSay: ((text: string) => void) | null = null;
+  /** There is no server any more, and why. */
+  onEnd: ((text: string) => void) | null = null;
   #after = 0;
   #scenario = '';
   #ended = false;
 
-  /** Sends a command to the server; what it refuses is said. */
-  async send(request: { command: string } & Record<string, unknown>): Promise<Json | null> {
+  /** Sends a command to the server; what it refuses is said by `say`, by default under the picture. */
+  async send(
+    request: { command: string } & Record<string, unknown>,
+    say: (text: string) => void = (text) => this.onSay?.(text),
+  ): Promise<Json | null> {
     try {
       const answer = await command(request);
-      this.onSay?.('');
+      say('');
       return answer;
     } catch (error) {
-      this.onSay?.(error instanceof Refused ? error.message : 'The server does not respond.');
+      say(error instanceof Refused ? error.message : 'The server does not respond.');
       return null;
     }
   }
@@ -40,7 +45,7 @@ export class SessionView {
         failures = 0;
       } catch (error) {
         if (error instanceof Refused || ++failures > 5) {
-          this.onSay?.(
+          this.onEnd?.(
             error instanceof Refused ? error.message : 'rigor view has ended. Start it again and open its new link.',
           );
           return;

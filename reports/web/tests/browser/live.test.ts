@@ -215,6 +215,6 @@ test('another scenario in two dimensions, and the end of the server', { skip }, 
   await shoot(page, 'live-2d');
   assert.deepEqual(faults, []);
   assert.equal(await program.end(), 0);
-  await page.waitForFunction(() => document.querySelector('.said')?.textContent?.includes('has ended'));
+  await page.waitForFunction(() => document.querySelector('.ended')?.textContent?.includes('has ended'));
   await context.close();
 });
