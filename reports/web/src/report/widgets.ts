@@ -33,11 +33,14 @@ export const changeMark = (regression: Regression): string =>
 export function gradeBar(grades: number[]): HTMLElement {
   const names = ['A', 'B', 'C', 'D', 'E'];
   const text = names.map((name, i) => `${name} ${grades[i] ?? 0}`).join(', ');
+  const all = grades.reduce((sum, n) => sum + n, 0);
+  // a part that is too narrow for its text has the letter or nothing: the number is in the title
+  const textOf = (name: string, n: number) => (n < 0.08 * all ? '' : n < 0.22 * all ? name : `${name} ${n}`);
   return el(
     'span',
     { class: 'gradebar', title: text, role: 'img', 'aria-label': text },
     names.map((name, i) =>
-      grades[i] ? el('i', { class: `v g-${name}`, style: `flex-grow:${grades[i]}` }, `${name} ${grades[i]}`) : null,
+      grades[i] ? el('i', { class: `v g-${name}`, style: `flex-grow:${grades[i]}` }, textOf(name, grades[i])) : null,
     ),
   );
 }

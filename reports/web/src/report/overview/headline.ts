@@ -2,12 +2,29 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { type Child, el } from '../../common/elements.ts';
 import { counted } from '../../common/format.ts';
-import { run } from '../run.ts';
+import { labelOf, run, scenarioLink } from '../run.ts';
 import { panel } from '../widgets.ts';
+
+const mostNamed = 6;
+
+/** Links to the first red cases. */
+function redCases(): Child {
+  const all = run.scenarios.flatMap((s) => s.cases.filter((c) => c.judged.red).map((c) => ({ s, c })));
+  const links = all
+    .slice(0, mostNamed)
+    .map(
+      ({ s, c }, i): Child => [
+        i ? ', ' : '',
+        el('a', { href: scenarioLink(s.name, { dt: c.dt, spec: c.spec }) }, `${s.name} by ${labelOf(c.spec)}`),
+      ],
+    );
+  return [links, all.length > mostNamed ? ` and ${all.length - mostNamed} more` : ''];
+}
 
 /** Title, totals, unfinished parts, and authors. */
 export function headline(): HTMLElement {
   const engines = new Set(run.columns.map((c) => c.engine));
+  const program = run.command.split(' ')[0] || 'rigor';
   const unfinished = run.planned > run.total || !run.finished;
   const graded = run.grades.filter((g) => g.name);
   const all = graded.reduce((sum, g) => sum + g.count, 0);
@@ -33,7 +50,11 @@ export function headline(): HTMLElement {
       `${counted(engines.size, 'engine')} in ${counted(run.columns.length, 'configuration')} ran ${counted(run.scenarios.length, 'scenario')}, each against the same reference. `,
       el('b', null, `${near} of ${all} graded runs are within a hundredth of the scenario’s own scale. `),
       run.red
-        ? `${counted(run.red, 'case')} ${run.red === 1 ? 'is' : 'are'} red: ▼ worse than on record, or they did not end.`
+        ? [
+            `${counted(run.red, 'case')} ${run.red === 1 ? 'is' : 'are'} red, worse than on record or without an end: `,
+            redCases(),
+            '.',
+          ]
         : 'No case is red.',
     ),
     el(
@@ -77,6 +98,15 @@ export function headline(): HTMLElement {
       el('a', { href: '#ledger' }, 'parity ledger'),
       '; how everything is measured stands under ',
       el('a', { href: '#method' }, 'method'),
+      '.',
+    ),
+    el(
+      'p',
+      { class: 'muted small' },
+      'Two runs on one page, with what changed and their replays side by side: ',
+      el('code', null, `${program} history EARLIER LATER --out FOLDER`),
+      '. An engine of your own in this report: ',
+      el('code', null, `${program} new engine NAME`),
       '.',
     ),
   );
