@@ -45,6 +45,7 @@ export interface Focus {
 export interface Cursor {
   time: Observable<number>; // [s], >= 0
   focus: Observable<Focus | null>;
+  playing: boolean; // the time moves by itself
   hidden: Observable<ReadonlySet<string>>; // specs that are switched off, in curves and replay alike
 }
 
@@ -52,6 +53,7 @@ export function newCursor(time = 0): Cursor {
   return {
     time: new Observable(time),
     focus: new Observable<Focus | null>(null),
+    playing: false,
     hidden: new Observable<ReadonlySet<string>>(new Set()),
   };
 }

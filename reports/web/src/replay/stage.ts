@@ -35,6 +35,7 @@ import { PanelLabels } from './panel_labels.ts';
 import { contactOf, type Pinned } from './pinned.ts';
 import { Player } from './player.ts';
 import type { Scene } from './scene.ts';
+import { Seldom } from './seldom.ts';
 import { sub, type Vec3 } from './vectors.ts';
 import { type CameraState, type Pick, ReplayView } from './view.ts';
 
@@ -55,6 +56,14 @@ export class ReplayStage implements ReplayActions {
   readonly #labels: PanelLabels;
   readonly #stage: HTMLElement;
   readonly #ends: (() => void)[] = [];
+  readonly #clock = new Seldom(() => {
+    this.controls.time = this.time;
+  });
+  readonly #beside = new Seldom(() => {
+    this.controls?.refreshLegend();
+    this.#labels.place(this.view);
+    this.#inspect();
+  });
   #chosen: Set<string>; // specs that have a picture
   #pinned: Pinned | null = null;
   #hover: Pick | null = null;
@@ -82,7 +91,10 @@ export class ReplayStage implements ReplayActions {
     this.#pointed = new Inspector(scene, true);
     root.append(el('div', { class: 'stage-row' }, this.#stage, this.#inspector.element));
     this.view = new ReplayView(this.#stage, scene);
-    this.player = new Player(context.cursor.time, () => this.controls?.refresh());
+    this.player = new Player(context.cursor.time, () => {
+      context.cursor.playing = this.player.playing;
+      this.controls?.refresh();
+    });
     this.#labels = new PanelLabels();
     this.#stage.append(this.#notes.element, this.#labels.element, this.#pointed.element);
     this.#chosen = this.#firstChoice();
@@ -289,10 +301,8 @@ export class ReplayStage implements ReplayActions {
     );
     this.view.onCamera = () => this.#remember();
     this.view.onDraw = () => {
-      this.controls?.refreshLegend();
-      this.#labels.place(this.view);
+      this.#beside.call(this.player.playing);
       this.#notes.place(this.view, this.#allNotes());
-      this.#inspect();
     };
     this.#followPointer();
     this.#ends.push(followTheme(this.view));
@@ -385,7 +395,7 @@ export class ReplayStage implements ReplayActions {
   #seek(time: number): void {
     this.#goAlong();
     this.view.setTime(time);
-    this.controls.time = time;
+    this.#clock.call(this.player.playing);
     if (!this.player.playing) this.#remember();
   }
 
@@ -469,6 +479,8 @@ export class ReplayStage implements ReplayActions {
   dispose(): void {
     clearTimeout(this.#linkTimer);
     this.player.pause();
+    this.#clock.end();
+    this.#beside.end();
     for (const end of this.#ends) end();
     this.view.dispose();
   }

@@ -3,6 +3,7 @@
 //
 // One plot in a card: lines over time or over anything else. Drag zooms, double click shows everything again, the
 // pointer reads values out. Over time, a click sets the shared time and a bar follows it.
+import { Seldom } from '../../replay/seldom.ts';
 import 'uplot/dist/uPlot.min.css';
 import uPlot from 'uplot';
 import { cssValue, el } from '../../common/elements.ts';
@@ -247,7 +248,8 @@ function connect(plot: Plot, u: uPlot): (() => void)[] {
       const wanted = line.key === '' || !cursor.hidden.value.has(line.key);
       if (u.series[i + 1]?.show !== wanted) u.setSeries(i + 1, { show: wanted });
     });
-  return [cursor.time.follow(place), cursor.hidden.follow(show)];
+  const placed = new Seldom(place);
+  return [cursor.time.follow(() => placed.call(cursor.playing)), cursor.hidden.follow(show), () => placed.end()];
 }
 
 function showReadOut(plot: Plot, u: uPlot, readOut: HTMLElement): void {

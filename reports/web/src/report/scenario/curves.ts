@@ -3,8 +3,10 @@
 //
 // Curves of one scenario at one time step: all engines and the reference over each other, with the switches that
 // curves and replay share.
+
 import { el } from '../../common/elements.ts';
 import { format } from '../../common/format.ts';
+import { Seldom } from '../../replay/seldom.ts';
 import { lineSample } from '../charts/line_sample.ts';
 import { dropPlots } from '../charts/live_plots.ts';
 import { plotCard } from '../charts/plot.ts';
@@ -93,13 +95,14 @@ function timeReadOut({ cursor, scenario }: Context): HTMLElement {
     'aria-label': 'Time',
     class: 'noprint',
   });
-  const show = (t: number) => {
-    text.textContent = `t = ${format(t)} s`;
-    slider.value = String(t);
+  const show = () => {
+    text.textContent = `t = ${format(cursor.time.value)} s`;
+    slider.value = String(cursor.time.value);
   };
+  const shown = new Seldom(show);
   slider.addEventListener('input', () => cursor.time.set(Number(slider.value), slider));
-  cursor.time.follow(show);
-  show(cursor.time.value);
+  cursor.time.follow(() => shown.call(cursor.playing));
+  show();
   return el('span', { class: 'seg' }, slider, text);
 }
 
