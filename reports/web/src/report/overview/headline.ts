@@ -24,7 +24,7 @@ function redCases(): Child {
 /** Title, totals, unfinished parts, and authors. */
 export function headline(): HTMLElement {
   const engines = new Set(run.columns.map((c) => c.engine));
-  const program = run.command.split(' ')[0] || 'rigor';
+  const program = run.command.split(' ')[0] || './rigor';
   const unfinished = run.planned > run.total || !run.finished;
   const graded = run.grades.filter((g) => g.name);
   const all = graded.reduce((sum, g) => sum + g.count, 0);
