@@ -58,7 +58,7 @@ HistoryReplays historyReplays(const std::vector<Run>& runs, std::size_t newest) 
     ByCase found;
     for (std::size_t r = runs.size() - std::min(newest, runs.size()); r < runs.size(); ++r)
         findReplays(runs[r], r, found);
-    std::map<std::string, std::string> texts;  // those of the newest run come last and stay
+    std::map<std::string, std::string> texts;  // the newest run comes last and its files stay
     for (const Run& run : runs)
         for (const auto& scenario : run.scenarios) texts[scenario.name] = scenario.text;
     HistoryReplays out;

@@ -86,7 +86,7 @@ TEST_P(Instances, ContactsAreCarriedAlongWithTheirBodies) {
     EXPECT_GT(ofBlock, 0u);
 }
 
-/// What is counted belongs to the step that is shown, not to the one that was taken last.
+/// Counts belong to the step that is shown, not to the one that was taken last.
 TEST_P(Instances, CountsAfterAStepBackAreThoseOfThatStep) {
     const auto world = instance(GetParam());
     const auto counted = [&] {

@@ -157,7 +157,7 @@ function lineOf(s: Series, index: number, label: string, of: 'error' | 'time'): 
   };
 }
 
-/** `replay`: the case whose runs are shown side by side; `changed` is told of another one. */
+/** `replay`: the case whose runs are shown side by side; `changed` gets another one. */
 function scenarioNode(all: Series[], replay: string | null, changed: (key: string | null) => void): HTMLElement {
   const first = all[0] as Series;
   const steps = new Set(all.map((s) => toNumber(s.dt))).size;

@@ -54,7 +54,7 @@ async function show(at: HTMLElement, s: Series, runs: readonly HistoryRun[], col
 
 /**
  * The choice of a case of a scenario and its replays; null where there are none. `chosen`: the case that is shown at
- * once; `changed` is told of another one.
+ * once; `changed` gets another one.
  */
 export function replayBox(
   all: readonly Series[],

@@ -6,7 +6,7 @@ import { BufferAttribute, type BufferGeometry, type Color } from 'three';
 import { grown, type Numbers, setDynamic } from './growing.ts';
 import type { Vec3 } from './vectors.ts';
 
-const corners = 8; // of the open end
+const corners = 8; // corners of the open end
 const numbers = 3 * (corners + 1);
 const turns = Array.from({ length: corners }, (_, i) => (2 * Math.PI * i) / corners);
 const cosines = turns.map(Math.cos);

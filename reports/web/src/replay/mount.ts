@@ -54,7 +54,7 @@ function inOrder(scene: Scene, names: readonly string[]): Scene {
   };
 }
 
-/** What is in one picture or side by side, before it is drawn. */
+/** Runs that a replay shows, before they are drawn. */
 interface Content {
   replay: Replay;
   thinned: Map<FrameSource, () => Promise<FrameSource>>;

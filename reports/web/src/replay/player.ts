@@ -90,7 +90,7 @@ export class Player {
     const time = Math.min(this.end, this.#time.value + passed * this.#speed);
     this.#measure(really, time - this.#time.value);
     this.#time.set(time, this);
-    // The picture asks for the next frame before the clock does: it is drawn in each, and not in every second one.
+    // The picture requests the next frame before the clock does: it is drawn in each, and not in every second one.
     if (this.playing) this.#requested = requestAnimationFrame(this.#tick);
     if (time >= this.end) this.pause();
   };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is shown beside a picture that moves. Where the browser draws in software, texts and marks that change with every
-// frame would take as long as the picture: while it plays they change a few times a second.
+// Texts and marks beside a picture that moves. Where the browser draws in software, changing them with every frame would
+// take as long as the picture: while it plays they change a few times a second.
 import { drawsInSoftware } from './software.ts';
 
 const pause = 200; // [ms]

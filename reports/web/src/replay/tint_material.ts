@@ -7,7 +7,7 @@
 import { Color, ShaderMaterial } from 'three';
 import { type Places, placesShader } from './repeated.ts';
 
-/** Of linear colours, in GLSL. */
+/** Conversion of linear colours, in GLSL. */
 export const toSrgb =
   'vec3 srgb(vec3 c) { return mix(1.055 * pow(c, vec3(0.41666)) - 0.055, 12.92 * c,' +
   ' vec3(lessThanEqual(c, vec3(0.0031308)))); }';
