@@ -10,8 +10,9 @@ import type { Json } from '../replay/json.ts';
 import { mountTogether, type ReplayHandle } from '../replay/mount.ts';
 import type { HistoryRun, Series } from './data.ts';
 
-/** Runs of a case that have a replay. */
-const replaysOf = (s: Series) => s.replay.flatMap((name, run) => (name === null ? [] : [{ name, run }]));
+/** Runs of a case that have a replay with its frames. */
+const replaysOf = (s: Series) =>
+  s.replay.flatMap((name, run) => (name === null || s.outcome[run] === 'unsupported' ? [] : [{ name, run }]));
 
 /** Name of a case in the address. */
 export const caseKey = (s: Pick<Series, 'scenario' | 'spec' | 'dt'>): string => `${s.scenario}~${s.spec}~${s.dt}`;
