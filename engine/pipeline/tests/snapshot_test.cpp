@@ -11,6 +11,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/pipeline/algorithms.hpp"
 #include "engine/pipeline/tests/scene.hpp"
+#include "engine/state/prefer_speed.hpp"
 
 namespace rigor::engine::test {
 namespace {
@@ -112,6 +113,31 @@ TEST(SnapshotChoices, HaveTheSameFutureForEveryAlgorithm) {
     WorldDef<S> substeps = earth<S>();
     substeps.substeps = 4;
     savedAndRestored<S>(substeps, "substeps");
+}
+
+/// Boxes that tumble off each other: contacts with cached manifolds end, and their shapes stay near each other.
+TYPED_TEST(Snapshot, HasTheSameHashesAfterContactsHaveEnded) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    WorldDef<S> def = earth<S>();
+    preferSpeed(def);
+    const auto tower = [&] {
+        World<S> world(def);
+        const auto wood = world.addMaterial(R(0.5), R(0));
+        addGround<S>(world, wood);
+        for (int i = 0; i < 12; ++i) addCube<S>(world, 0.1 * i, 0.5 + 1.05 * i, 0.5, 1, wood);
+        return world;
+    };
+    World<S> saved = tower();
+    for (int i = 0; i < 300; ++i) {
+        saved.step(R(1.0 / 60));
+        if (i % 10 != 0) continue;
+        std::vector<unsigned char> bytes;
+        saved.saveSnapshot(bytes);
+        World<S> fresh = tower(), original = saved;
+        fresh.restoreSnapshot(bytes);
+        expectSameFuture(original, fresh, 20, "saved after step " + std::to_string(i));
+    }
 }
 
 TYPED_TEST(Snapshot, OfAWorldWhoseJointBrokeFitsTheWorldAsItWasBuilt) {
