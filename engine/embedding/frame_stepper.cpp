@@ -2,50 +2,51 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/embedding/frame_stepper.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "engine/math/rotation.hpp"
 #include "engine/pipeline/require.hpp"
 
 namespace rigor::engine {
+namespace {
+
+template <class S>
+bool isSame(const Pose<S>& a, const Pose<S>& b) {
+    if constexpr (S::dim == 2)
+        return a.p == b.p && a.q.c == b.q.c && a.q.s == b.q.s;
+    else
+        return a.p == b.p && a.q.coeffs() == b.q.coeffs();
+}
+
+}  // namespace
 
 template <class S>
 FrameStepper<S>::FrameStepper(World<S>& world, const FrameSettings& settings)
-    : world_(world), settings_(settings) {
-    require(settings.step > 0 && std::isfinite(settings.step), "frame_settings",
-            "a step must be positive and finite");
-    require(settings.mostSteps >= 1, "frame_settings", "a frame needs one step at least");
-}
-
-/// Returns the number of steps that are due, and keeps the rest of the time.
-template <class S>
-int FrameStepper<S>::takeTime(double elapsed) {
-    require(elapsed >= 0 && std::isfinite(elapsed), "frame_time", "frame time must be >= 0 and finite");
-    remainder_ += elapsed;
-    // Sums of frame times that mean whole steps fall short of them by rounding.
-    const double due = std::floor(remainder_ / settings_.step + 1e-9);
-    const double run = std::min(due, static_cast<double>(settings_.mostSteps));
-    remainder_ = std::max(0.0, remainder_ - due * settings_.step);
-    skipped_ += (due - run) * settings_.step;
-    return static_cast<int>(run);
+    : world_(world), clock_(settings.step), mostSteps_(settings.mostSteps) {
+    require(mostSteps_ >= 1, "frame_settings", "a frame needs one step at least");
 }
 
 template <class S>
-void FrameStepper<S>::rememberPoses() {
-    before_.clear();
+void FrameStepper<S>::rememberPoses(Poses& poses) const {
+    poses.clear();
     for (const BodyId body : world_.bodies()) {
-        if (body.index >= before_.size()) before_.resize(body.index + 1);
-        before_[body.index] = {body, world_.pose(body)};
+        if (body.index >= poses.size()) poses.resize(body.index + 1);
+        poses[body.index] = {body, world_.pose(body)};
     }
+}
+
+/// Pose of a body, or null if it was not in the world then.
+template <class S>
+const Pose<S>* FrameStepper<S>::find(const Poses& poses, BodyId body) {
+    if (body.index >= poses.size() || poses[body.index].body != body) return nullptr;
+    return &poses[body.index].pose;
 }
 
 template <class S>
 Pose<S> FrameStepper<S>::pose(BodyId body) const {
     using Real = typename S::Real;
     const Pose<S> now = world_.pose(body);
-    if (body.index >= before_.size() || before_[body.index].body != body) return now;
-    const Pose<S>& then = before_[body.index].pose;
+    const Pose<S>*start = find(before_, body), *end = find(after_, body);
+    if (start == nullptr || end == nullptr || !isSame<S>(*end, now)) return now;
+    const Pose<S>& then = *start;
     const auto s = static_cast<Real>(fraction());
     const typename S::Vec center = world_.constants(body).centerOfMass;
     const typename S::Vec from = toWorld<S>(then, center), to = toWorld<S>(now, center);
@@ -57,8 +58,9 @@ Pose<S> FrameStepper<S>::pose(BodyId body) const {
 
 template <class S>
 void FrameStepper<S>::restart() {
-    remainder_ = 0;
+    clock_.restart();
     before_.clear();
+    after_.clear();
 }
 
 RIGOR_INSTANTIATE_CLASS(FrameStepper)

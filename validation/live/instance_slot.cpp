@@ -103,15 +103,10 @@ std::future<StateReply> InstanceSlot::requestState() {
     return future;
 }
 
-/// Target in steps of the session.
-std::size_t InstanceSlot::target() const {
-    return static_cast<std::size_t>(std::max(0.0, std::floor(clock_.target + 1e-9)));
-}
-
 bool InstanceSlot::hasWork() const {
     if (!alive()) return false;
     if (goTo_ || drag_ || !nows_.empty()) return true;
-    return state_ == State::Ready && (stages_ > 0 || step_ < target());
+    return state_ == State::Ready && (stages_ > 0 || step_ < clock_.target);
 }
 
 InstanceSlot::Work InstanceSlot::takeWork() {
@@ -133,7 +128,7 @@ InstanceSlot::Work InstanceSlot::takeWork() {
         --stages_;
         request = {{"command", "stage"}, {"stages", true}};
     } else {
-        request = {{"command", "advance"}, {"steps", target() - step_}, {"seconds", kBatchSeconds}};
+        request = {{"command", "advance"}, {"steps", clock_.target - step_}, {"seconds", kBatchSeconds}};
     }
     if (clock_.stages) request["stages"] = true;
     return work;
@@ -172,9 +167,9 @@ void InstanceSlot::store(InstanceProcess::Answer answer, bool ofStage) {
         stepSeconds_ = header.value("step_seconds", 0.0);
         frame_ = std::move(answer.packet);
         ++frames_;
-        if (step_ >= target()) catchingUp_ = false;
+        if (step_ >= clock_.target) catchingUp_ = false;
         // A step that was ended by its stages takes the other instances along.
-        if (ofStage && !goTo_) clock_.target = std::max(clock_.target, static_cast<double>(step_));
+        if (ofStage && !goTo_) clock_.target = std::max(clock_.target, step_);
     } else {
         inStep_ = false;
         for (auto& promise : nows_) promise.set_value({"", message_, {}, 0});

@@ -23,7 +23,7 @@ namespace rigor::validation {
 struct SessionClock {
     std::mutex mutex;
     std::condition_variable changed;
-    double target = 0.0;         ///< target of the instances in steps from the start of the session
+    std::size_t target = 0;      ///< target of the instances in steps from the start of the session
     std::uint64_t sequence = 0;  ///< counts every change that a client may show
     bool stages = false;         ///< frames carry what stages have made
 };
@@ -97,7 +97,6 @@ class InstanceSlot {
     void store(InstanceProcess::Answer answer, bool ofStage = false);
     double secondsFor(const nlohmann::json& request) const;
     void answerNow(std::promise<StateReply> promise, const InstanceProcess::Answer& answer);
-    std::size_t target() const;
 
     std::filesystem::path binary_;
     InstanceLimits limits_;

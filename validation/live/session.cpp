@@ -19,6 +19,7 @@ using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kTick = std::chrono::milliseconds(8);
+constexpr double kMostAhead = 1e9;    ///< [steps] of a tick, where no instance sets the pace
 constexpr double kLongestTick = 0.1;  ///< [s] a process that was stopped does not run after its clock
 
 }  // namespace
@@ -69,7 +70,8 @@ void Session::open(const std::string& text, const std::vector<adapter::EngineSpe
         opened_ = {loaded.text, std::move(loaded.scenario)};
         dt_ = options_.dt > 0.0 ? options_.dt : opened_.scenario.timeSteps.front();
         playing_ = false;
-        clock_.target = 0.0;
+        clock_.target = 0;
+        pace_ = engine::FrameClock(dt_);
         reached_ = 0.0;
         for (const adapter::EngineSpec& spec : specs) {
             if (instances_.size() == kMaxInstances) break;
@@ -95,11 +97,13 @@ void Session::advanceClock(double seconds) {
     const bool any = std::any_of(instances_.begin(), instances_.end(), [](const auto& instance) {
         return instance->state() == InstanceSlot::State::Ready;
     });
-    const double before = clock_.target;
+    // Steps that the slowest instance could not keep up with are skipped.
+    const double most = slowest + std::max(1.0, 4.0 * wanted) - static_cast<double>(clock_.target);
+    const double before = static_cast<double>(clock_.target) + pace_.fraction();
     if (any)
-        clock_.target =
-            std::max(clock_.target, std::min(clock_.target + wanted, slowest + std::max(1.0, 4.0 * wanted)));
-    const double rate = (clock_.target - before) * dt_ / seconds;
+        clock_.target += static_cast<std::size_t>(
+            pace_.advance(seconds * speed_, static_cast<std::int64_t>(std::clamp(most, 0.0, kMostAhead))));
+    const double rate = (static_cast<double>(clock_.target) + pace_.fraction() - before) * dt_ / seconds;
     reached_ += (rate - reached_) * std::min(1.0, 2.0 * seconds);
 }
 
@@ -113,9 +117,9 @@ void Session::tick() {
         bool moved = false;
         {
             const std::lock_guard lock(clock_.mutex);
-            const double before = std::floor(clock_.target);
+            const std::size_t before = clock_.target;
             if (playing_) advanceClock(seconds);
-            moved = std::floor(clock_.target) != before;
+            moved = clock_.target != before;
         }
         if (moved) clock_.changed.notify_all();
     }
@@ -152,7 +156,7 @@ json Session::state() {
             {"playing", playing_},
             {"speed", speed_},
             {"reached_speed", playing_ ? reached_ : 0.0},
-            {"step", std::floor(clock_.target + 1e-9)},
+            {"step", clock_.target},
             {"stages", clock_.stages},
             {"instances", std::move(instances)}};
 }

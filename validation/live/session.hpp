@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "engine/embedding/frame_clock.hpp"
 #include "validation/live/instance_slot.hpp"
 #include "validation/runner/runner.hpp"
 
@@ -78,6 +79,7 @@ class Session {
     StateReply nowOf(int id);
 
     void changePace(const nlohmann::json& request);
+    void pause();
     void step(long by);
     void stage();
     void reset();
@@ -95,7 +97,8 @@ class Session {
     Slots instances_;
     bool playing_ = false, closed_ = false;
     double speed_ = 1.0, dt_ = 0.0;
-    double reached_ = 0.0;  ///< the speed that the instances allow, smoothed
+    engine::FrameClock pace_{1.0};  ///< makes steps of the time that passes while the session plays
+    double reached_ = 0.0;          ///< the speed that the instances allow, smoothed
     int nextId_ = 0;
 
     std::atomic<bool> ending_{false};

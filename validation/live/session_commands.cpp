@@ -125,32 +125,35 @@ void Session::changePace(const json& request) {
     } else {
         playing_ = name == "play";
         reached_ = 0.0;
-        if (!playing_) clock_.target = std::floor(clock_.target + 1e-9);
+        if (!playing_) pace_.restart();
     }
+}
+
+void Session::pause() {
+    playing_ = false;
+    pace_.restart();
 }
 
 void Session::step(long by) {
     if (by == 0 || std::abs(by) > kMostSteps) throw CommandError("steps: from 1 to 100000");
     const std::lock_guard lock(clock_.mutex);
-    playing_ = false;
-    double now = std::floor(clock_.target + 1e-9);
+    pause();
     if (by > 0) {
-        clock_.target = now + by;
+        clock_.target += static_cast<std::size_t>(by);
         return;
     }
     // Going back from a step that has begun leads to its start.
     const bool inStep = std::any_of(instances_.begin(), instances_.end(),
                                     [](const auto& instance) { return instance->inStep(); });
-    now = std::max(0.0, now + by + (inStep ? 1.0 : 0.0));
-    clock_.target = now;
+    const auto back = static_cast<std::size_t>(-by) - (inStep ? 1 : 0);
+    clock_.target -= std::min(back, clock_.target);
     for (const auto& instance : instances_)
-        if (instance->alive()) instance->requestStep(static_cast<std::size_t>(now));
+        if (instance->alive()) instance->requestStep(clock_.target);
 }
 
 void Session::stage() {
     const std::lock_guard lock(clock_.mutex);
-    playing_ = false;
-    clock_.target = std::floor(clock_.target + 1e-9);
+    pause();
     bool any = false;
     for (const auto& instance : instances_) {
         if (instance->state() != InstanceSlot::State::Ready || !instance->hasStages()) continue;
@@ -164,8 +167,8 @@ void Session::stage() {
 void Session::reset() {
     Slots gone;  // end after the lock
     const std::lock_guard lock(clock_.mutex);
-    playing_ = false;
-    clock_.target = 0.0;
+    pause();
+    clock_.target = 0;
     for (auto& instance : instances_) {
         if (instance->alive() || instance->state() == InstanceSlot::State::Loading) {
             instance->requestStep(0);

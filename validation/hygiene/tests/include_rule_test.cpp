@@ -73,6 +73,9 @@ const std::vector<Rule>& rules() {
         {"validation/statistics", {}},
         {"validation/results", {}},
         {"validation/fuzz", {"validation/", "adapters/interface/", "adapters/guest/frame.hpp", "scenarios/"}},
+        // Live sessions pace all engines by the accumulator of the in-house engine's package.
+        {"validation/live",
+         {"validation/", "adapters/interface/", "scenarios/", "engine/embedding/frame_clock.hpp"}},
         {"validation", {"validation/", "adapters/interface/", "scenarios/"}},
         {"reports/encoding", {"validation/results/"}},
         {"reports/model", {"reports/encoding/", "validation/results/", "validation/statistics/"}},
