@@ -12,7 +12,10 @@ namespace {
 
 template <class S>
 void requireBodies(const World<S>& world, std::size_t bodies) {
-    require(world.bodyCount() == bodies, "batch_bodies", "the worlds of a batch have as many bodies each");
+    if (world.bodyCount() == bodies) return;
+    throw EngineError("batch_bodies", "a world has " + std::to_string(world.bodyCount()) +
+                                          " bodies, the batch " + std::to_string(bodies) +
+                                          ": all its worlds have as many");
 }
 
 int checkedThreads(int threads) {
@@ -90,7 +93,9 @@ bool WorldBatch<S>::forEach(const WorldWork& work) {
 template <class S>
 void WorldBatch<S>::reset(std::span<const std::size_t> worlds) {
     for (const std::size_t i : worlds) {
-        require(i < size(), "batch_world", "the batch has no world of this index");
+        if (i >= size())
+            throw EngineError("batch_world", "there is no world " + std::to_string(i) + ": the batch has " +
+                                                 std::to_string(size()));
         World<S> fresh = start_ ? *start_ : build_(i);
         requireBodies(fresh, bodies_);
         worlds_[i] = std::move(fresh);
@@ -101,7 +106,10 @@ void WorldBatch<S>::reset(std::span<const std::size_t> worlds) {
 
 template <class S>
 void WorldBatch<S>::requireSize(std::size_t numbers, std::size_t perWorld) const {
-    require(numbers == size() * perWorld, "batch_array", "an array over the worlds has another length");
+    if (numbers == size() * perWorld) return;
+    throw EngineError("batch_array", "the array has " + std::to_string(numbers) + " numbers; " +
+                                         std::to_string(size()) + " worlds have " + std::to_string(perWorld) +
+                                         " each");
 }
 
 template <class S>

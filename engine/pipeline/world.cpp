@@ -24,8 +24,13 @@ void checkCoefficients(const PairCoefficients<S>& c, const WorldDef<S>& def) {
     require(c.rollingFriction >= 0 && c.torsionalFriction >= 0 && std::isfinite(c.rollingFriction) &&
                 std::isfinite(c.torsionalFriction),
             "material_moments", "rolling and torsional friction are lengths and must not be negative");
-    require(!c.hasMoments() || solverTraits(def.solver).moments, "material_moments",
-            "this solver has no rolling and torsional friction");
+    if (!c.hasMoments() || solverTraits(def.solver).moments) return;
+    std::string others;
+    for (const auto& entry : solverTraitsTable())
+        if (entry.traits.moments) others += (others.empty() ? "" : ", ") + std::string(entry.name);
+    throw EngineError(
+        "material_moments",
+        "the solver " + def.solver + " has no rolling and torsional friction; these have: " + others);
 }
 
 }  // namespace
@@ -37,6 +42,7 @@ World<S>::World(const WorldDef<S>& def) : parts_(def) {}
 
 template <class S>
 BodyId World<S>::addBody(const BodyDef<S>& def) {
+    requireBetweenSteps();
     islands();  // finds the islands of the last step
     const BodyId id = parts_.bodies.add(def);
     parts_.setContinuous(parts_.bodies.dense(id), def.continuous);
@@ -45,14 +51,16 @@ BodyId World<S>::addBody(const BodyDef<S>& def) {
 
 template <class S>
 void World<S>::removeBody(BodyId body) {
+    requireBetweenSteps();
     parts_.removeBody(body);
 }
 
 template <class S>
 ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
+    requireBetweenSteps();
     const std::uint32_t dense = parts_.bodies.dense(body);
     const BodyArrays<S>& bodies = parts_.bodies.arrays();
-    require(def.material < parts_.contacts.materials().size(), "shape_material", "unknown material");
+    requireMaterial(def.material, parts_.contacts.materials().size());
     const ShapeId id = parts_.contacts.shapes().add(makeShapeRecord<S>(def, bodies.constants[dense], dense));
     parts_.addShapeMass(dense);
     if (!def.sensor) parts_.wakeReachOf(dense);
@@ -62,7 +70,7 @@ ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
 
 template <class S>
 void World<S>::setFilter(ShapeId shape, const ShapeFilter& filter) {
-    require(!stepping(), "step_in_progress", "filters cannot change between the phases of a step");
+    requireBetweenSteps();
     const ShapeSet<S>& shapes = parts_.contacts.shapes();
     const std::uint32_t dense = shapes.ids().dense(shape);
     parts_.wakeNeighboursOf(shapes[dense].body);
@@ -100,6 +108,7 @@ const PairCoefficients<S>& World<S>::pairCoefficients(std::uint32_t a, std::uint
 
 template <class S>
 JointId World<S>::addJoint(const JointDef<S>& def) {
+    requireBetweenSteps();
     const std::uint32_t a = parts_.bodies.denseOrWorld(def.bodyA), b = parts_.bodies.denseOrWorld(def.bodyB);
     require(a != b, "joint_bodies", "a joint needs two bodies");
     islands();  // finds the islands of the last step
@@ -114,12 +123,13 @@ JointId World<S>::addJoint(const JointDef<S>& def) {
 
 template <class S>
 void World<S>::removeJoint(JointId joint) {
-    require(!stepping(), "step_in_progress", "joints cannot be removed between the phases of a step");
+    requireBetweenSteps();
     parts_.removeJoint(joint);
 }
 
 template <class S>
 ForceId World<S>::addForce(const ForceDef<S>& def) {
+    requireBetweenSteps();
     const ForceId id = parts_.forces.add(def, parts_.bodies.arrays(), parts_.bodies.ids());
     parts_.wakeIslandOf(parts_.forces.place(id).a);
     parts_.wakeIslandOf(parts_.forces.place(id).b);
@@ -128,6 +138,7 @@ ForceId World<S>::addForce(const ForceDef<S>& def) {
 
 template <class S>
 void World<S>::removeForce(ForceId force) {
+    requireBetweenSteps();
     parts_.wakeIslandOf(parts_.forces.place(force).a);
     parts_.wakeIslandOf(parts_.forces.place(force).b);
     parts_.forces.remove(force);
@@ -205,7 +216,7 @@ void World<S>::setVelocity(BodyId body, const Vec& velocity, const Ang& angularV
 
 template <class S>
 void World<S>::setSurfaceVelocity(ShapeId shape, const Velocity<S>& surface) {
-    require(!stepping(), "step_in_progress", "surfaces cannot change between the phases of a step");
+    requireBetweenSteps();
     ShapeSet<S>& shapes = parts_.contacts.shapes();
     ShapeRecord<S>& record = shapes.records()[shapes.ids().dense(shape)];
     rigor::engine::setSurfaceVelocity<S>(record, surface, parts_.bodies.arrays().constants[record.body]);
@@ -228,7 +239,7 @@ void World<S>::setPreSolve(PreSolve<S> callback) {
 
 template <class S>
 void World<S>::setPose(BodyId body, const Pose<S>& pose) {
-    require(!stepping(), "step_in_progress", "poses cannot be set between the phases of a step");
+    requireBetweenSteps();
     require(validPose<S>(pose), "body_pose", "position must be finite, orientation a unit rotation");
     const std::uint32_t i = parts_.bodies.dense(body);
     parts_.wakeNeighboursOf(i);
@@ -248,7 +259,7 @@ void World<S>::wake(BodyId body) {
 
 template <class S>
 void World<S>::putToSleep(BodyId body) {
-    require(!stepping(), "step_in_progress", "bodies cannot be put to sleep between the phases of a step");
+    requireBetweenSteps();
     require(parts_.algorithms.sleeping.wake != nullptr, "sleeping",
             "a body that sleeps needs a world whose sleeping wakes it");
     const Islands& islands = parts_.currentIslands();
@@ -260,7 +271,7 @@ void World<S>::putToSleep(BodyId body) {
 
 template <class S>
 void World<S>::setJointAxis(JointId joint, int axis, const JointAxis<Real>& control) {
-    require(!stepping(), "step_in_progress", "joints cannot change between the phases of a step");
+    requireBetweenSteps();
     parts_.joints.setAxis(joint, axis, control);
     parts_.wakeIslandOf(parts_.joints.joint(joint).a);
     parts_.wakeIslandOf(parts_.joints.joint(joint).b);

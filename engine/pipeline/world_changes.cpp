@@ -12,7 +12,8 @@ namespace rigor::engine {
 
 template <class S>
 void World<S>::requireBetweenSteps() const {
-    require(!stepping(), "step_in_progress", "worlds cannot change between the phases of a step");
+    require(!stepping(), "step_in_progress",
+            "a world cannot change during a step: between its phases, or from a callback");
 }
 
 template <class S>
@@ -80,7 +81,7 @@ void World<S>::setDensity(ShapeId shape, Real density) {
 template <class S>
 void World<S>::setMaterial(ShapeId shape, std::uint32_t material) {
     requireBetweenSteps();
-    require(material < parts_.contacts.materials().size(), "shape_material", "unknown material");
+    requireMaterial(material, parts_.contacts.materials().size());
     ShapeRecord<S>& record = parts_.contacts.shapes().records()[parts_.contacts.shapes().ids().dense(shape)];
     parts_.wakeNeighboursOf(record.body);
     record.material = material;

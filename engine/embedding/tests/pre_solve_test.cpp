@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -283,6 +284,43 @@ TYPED_TEST(PreSolveCall, MayThrow) {
     for (int i = 0; i < 30; ++i) world.step(R(kTick));
     EXPECT_NEAR(double(world.pose(box).p[1]), 0.5, 1e-3);
     EXPECT_NEAR(world.time(), 30 * kTick, 1e-6);
+}
+
+/// Bodies, shapes, joints and forces neither come nor go during a step, from a callback or between its phases.
+TYPED_TEST(PreSolveCall, MayNotChangeTheWorld) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    World<S> world(earth<S>());
+    addGround<S>(world, kUsualMaterial);
+    const BodyId ball = addBall<S>(world, 0, 0.25, 0.25, 1, kUsualMaterial);
+    const ForceId drag = world.addForce(LinearDrag<S>{ball, R(0.1)});
+    JointDef<S> joint;
+    joint.bodyB = ball;
+    const std::vector<std::function<void()>> changes{
+        [&] { world.addBody({}); },
+        [&] { world.removeBody(ball); },
+        [&] {
+            world.addShape(ball, {Sphere<S>{R(0.1)}, {}});
+        },
+        [&] { world.removeShape(world.shapes().back().id); },
+        [&] { world.addJoint(joint); },
+        [&] {
+            world.addForce(LinearDrag<S>{ball, R(0.1)});
+        },
+        [&] { world.removeForce(drag); },
+        [&] { world.setPose(ball, world.pose(ball)); },
+    };
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+        world.setPreSolve([&](PreSolveContact<S>&) { changes[k](); });
+        EXPECT_EQ(refusal([&] { world.step(R(kTick)); }), "step_in_progress") << "change " << k;
+        world.setPreSolve({});
+        world.beginStep(R(kTick));
+        world.runPhase();
+        EXPECT_EQ(refusal([&] { changes[k](); }), "step_in_progress") << "change " << k << " between phases";
+        while (world.stepping()) world.runPhase();
+    }
+    EXPECT_EQ(world.bodyCount(), 2U);
+    EXPECT_NO_THROW(changes.back()());
 }
 
 /// A solver without rolling friction refuses it from a callback as it does from a material.

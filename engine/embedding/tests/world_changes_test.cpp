@@ -55,16 +55,6 @@ struct Tower {
 constexpr double fallen(int steps) {
     return kGravity * kTick * kTick * steps * (steps + 1) / 2;
 }
-template <class Call>
-std::string refusal(Call call) {
-    try {
-        call();
-    } catch (const EngineError& e) {
-        return e.id();
-    }
-    return "none";
-}
-
 TYPED_TEST(WorldChanges, ARemovedShapeCarriesNothing) {
     using S = TypeParam;
     for (const bool sleeps : {false, true}) {
