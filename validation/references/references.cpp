@@ -36,6 +36,7 @@ enum Law : unsigned { kRolling = 1, kTorsional = 2, kSurfaces = 4 };
 constexpr std::pair<const char*, unsigned> kKnownLaws[] = {
     {"conveyor", kRolling | kTorsional | kSurfaces},
     {"measured_motion", kRolling | kTorsional | kSurfaces},
+    {"oblique_rolling", kRolling | kTorsional},
     {"rolling_resistance", kRolling | kTorsional},
     {"spinning_disc", kTorsional},
     {"turntable", kSurfaces}};

@@ -5,6 +5,7 @@
 // the refusals of references that do not know them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -128,6 +129,94 @@ TEST(RollingResistance, OthersRefuseItAndItRefusesCurves) {
     s.bodies[1].angularVelocity = {};
     s.bodies[0].shapes[0].surfaceVelocity.linear = {1, 0, 0};
     EXPECT_THROW(makeReference(s), AssumptionViolated) << "a belt is for conveyor";
+}
+
+/// The laws of a ball on a level floor in small explicit steps of the fourth order, while it slides.
+struct Oblique {
+    double mu, rho, g, r, k;
+    using State = std::array<double, 6>;  ///< vx, vz, wx, wz, x, z; the normal is y
+    State derivative(const State& y) const {
+        // u = v - r w x n with n = y: w x n = (-wz, wx).
+        const double ux = y[0] + r * y[3], uz = y[1] - r * y[2];
+        const double slip = std::hypot(ux, uz), turning = std::hypot(y[2], y[3]);
+        const double fx = -mu * g * ux / slip, fz = -mu * g * uz / slip;
+        // The torque of f at -r n is -r n x f = -r (fz, -fx).
+        return {fx,
+                fz,
+                (-r * fz - rho * g * y[2] / turning) / (k * r * r),
+                (r * fx - rho * g * y[3] / turning) / (k * r * r),
+                y[0],
+                y[1]};
+    }
+    void step(State& y, double h) const {
+        const auto plus = [](const State& a, double s, const State& b) {
+            State c = a;
+            for (std::size_t i = 0; i < c.size(); ++i) c[i] += s * b[i];
+            return c;
+        };
+        const State a = derivative(y), b = derivative(plus(y, h / 2, a)), c = derivative(plus(y, h / 2, b)),
+                    d = derivative(plus(y, h, c));
+        for (std::size_t i = 0; i < y.size(); ++i) y[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
+    }
+};
+
+Scenario obliqueBall(double rolling, double torsional) {
+    Scenario s = ballOnFloor(rolling, torsional);
+    s.materials[0].friction = 0.2;
+    s.bodies[1].velocity = {1.5, 0, 0.3};
+    s.bodies[1].angularVelocity = {6, 9, 4};
+    setReference(s, "oblique_rolling");
+    return s;
+}
+
+TEST(ObliqueRolling, IsWhatSmallStepsOfTheLawsGive) {
+    const Scenario s = obliqueBall(0.012, 0.003);
+    const auto r = makeReference(s);
+    const double end = r->quantities(0.01, adapter::Scheme::SymplecticEuler).front().exact;
+    const Oblique law{0.2, 0.012, 9.81, 0.1, 0.4};
+    Oblique::State y{1.5, 0.3, 6, 4, 0, 0};
+    const int steps = 20000;
+    const double h = 0.98 * end / steps;
+    for (int i = 0; i < steps; ++i) law.step(y, h);
+    const PartialState at = r->exact(1, 0.98 * end);
+    EXPECT_NEAR(at.velocity->x, y[0], 1e-10);
+    EXPECT_NEAR(at.velocity->z, y[1], 1e-10);
+    EXPECT_NEAR(at.angularVelocity->x, y[2], 1e-9);
+    EXPECT_NEAR(at.angularVelocity->z, y[3], 1e-9);
+    EXPECT_NEAR(at.position->x, y[4], 1e-10);
+    EXPECT_NEAR(at.position->z, y[5], 1e-10);
+    EXPECT_NEAR(at.angularVelocity->y, 9 - 0.003 * 9.81 / (0.4 * 0.01) * 0.98 * end, 1e-12);
+    // It then rolls, along a straight line.
+    const PartialState rolls = r->exact(1, end + 0.05), later = r->exact(1, end + 0.15);
+    EXPECT_NEAR(rolls.velocity->x, -0.1 * rolls.angularVelocity->z, 1e-11);
+    EXPECT_NEAR(rolls.velocity->z, 0.1 * rolls.angularVelocity->x, 1e-11);
+    EXPECT_NEAR(norm(*rolls.velocity) - norm(*later.velocity), 0.012 / 0.1 * 9.81 / 1.4 * 0.1, 1e-12);
+    EXPECT_NEAR(later.velocity->x * rolls.velocity->z, later.velocity->z * rolls.velocity->x, 1e-12);
+    EXPECT_EQ(norm(*makeReference(s)->exact(1, 2).velocity), 0.0) << "at rest";
+}
+
+TEST(ObliqueRolling, WithoutRollingFrictionIsTheParabolaOfSlipToRoll) {
+    Scenario s = obliqueBall(0, 0);
+    const auto curve = makeReference(s);
+    setReference(s, "slip_to_roll");
+    const auto parabola = makeReference(s);
+    for (const double t : {0.05, 0.2, 0.4, 0.9, 1.7}) {
+        EXPECT_LT(norm(*curve->exact(1, t).position - *parabola->exact(1, t).position), 1e-12) << t;
+        EXPECT_LT(norm(*curve->exact(1, t).velocity - *parabola->exact(1, t).velocity), 1e-12) << t;
+        EXPECT_LT(norm(*curve->exact(1, t).angularVelocity - *parabola->exact(1, t).angularVelocity), 1e-10)
+            << t;
+    }
+}
+
+TEST(ObliqueRolling, RefusesWhatItDoesNotKnow) {
+    Scenario s = obliqueBall(0.012, 0);
+    s.gravity = {1, -9.81, 0};
+    EXPECT_THROW(makeReference(s), AssumptionViolated) << "a slope";
+    s = obliqueBall(0.012, 0);
+    s.bodies[1].angularVelocity = {0, 3, 0};
+    EXPECT_THROW(makeReference(s), AssumptionViolated) << "does not turn along the floor";
+    s = obliqueBall(0.03, 0);
+    EXPECT_THROW(makeReference(s), AssumptionViolated) << "rolls in no case";
 }
 
 TEST(Conveyor, ABlockComesToRideAndABallRollsAtItsShare) {
