@@ -19,6 +19,8 @@ class BatchWorlds {
     virtual std::size_t size() const = 0;
     /// Advances every world by so many steps.
     virtual void step(int steps) = 0;
+    /// Time of the last step() by the engine's own clock [s] (StepCounters::stepSeconds); < 0: there is none.
+    virtual double ownSeconds() const { return -1.0; }
     /// States of a world's bodies, as World::readStates.
     virtual void readStates(std::size_t world, std::span<BodyState> states) const = 0;
 };
@@ -37,15 +39,28 @@ class LoopedWorlds final : public BatchWorlds {
     explicit LoopedWorlds(std::vector<std::unique_ptr<World>> worlds) : worlds_(std::move(worlds)) {}
     std::size_t size() const override { return worlds_.size(); }
     void step(int steps) override {
+        seconds_ = 0.0;
         for (const auto& world : worlds_)
-            for (int k = 0; k < steps; ++k) world->step();
+            for (int k = 0; k < steps; ++k) {
+                world->step();
+                if (hasClock_) addSeconds(world->counters().stepSeconds);
+            }
     }
+    double ownSeconds() const override { return hasClock_ ? seconds_ : -1.0; }
     void readStates(std::size_t world, std::span<BodyState> states) const override {
         worlds_[world]->readStates(states);
     }
 
   private:
+    /// The first step without a time shows that the engine has no clock; its counters are not asked for again.
+    void addSeconds(double own) {
+        hasClock_ = own >= 0.0;
+        seconds_ += own;
+    }
+
     std::vector<std::unique_ptr<World>> worlds_;
+    bool hasClock_ = true;
+    double seconds_ = 0.0;  ///< of the last step()
 };
 
 }  // namespace rigor::adapter

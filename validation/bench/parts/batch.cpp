@@ -37,6 +37,8 @@ const std::vector<BatchScene>& scenes() {
 
 constexpr int kFirstSteps = 60, kStepsAtOnce = 10;
 constexpr std::size_t kLeastRounds = 5, kMost = 30;
+/// What separates the name of a scene from the clock of its times, where that is not this program's.
+constexpr const char* kClockBegins = " (";
 /// Time of batches of steps after which no further one is begun [s].
 constexpr double kLongestRounds = 0.5;
 
@@ -47,7 +49,7 @@ class BatchBench final : public TimedWork {
           worlds_(static_cast<std::size_t>(std::llround(planned.size))),
           threads_(planned.threads) {
         for (const BatchScene& scene : scenes())
-            if (scene.name == planned.name)
+            if (scene.name == planned.name.substr(0, planned.name.find(kClockBegins)))
                 scenario_ =
                     scenario::loadScenario(scenario::findScenario(scene.scenario), scene.overrides).scenario;
         dt_ = scenario_.timeSteps.front();
@@ -65,6 +67,7 @@ class BatchBench final : public TimedWork {
         for (std::size_t k = 0; k < kMost && (k < kLeastRounds || spent < kLongestRounds);
              ++k, steps += kStepsAtOnce) {
             watch.time([&] { batch->step(kStepsAtOnce); }, bodySteps);
+            if (const double own = batch->ownSeconds(); own >= 0.0) watch.correctLast(own / bodySteps);
             spent += watch.samples().cpu.back() * bodySteps;
         }
         results::BenchRepetition done;
@@ -131,7 +134,9 @@ std::vector<PlannedBench> planBatches(const BenchRequest& request) {
                 for (const int threads : request.threads) {
                     PlannedBench planned;
                     planned.part = "batch";
-                    planned.name = scene.name;
+                    // Times of another clock are a group of their own: no ratio joins them with the others.
+                    const std::string& clock = engine.description.info.clock;
+                    planned.name = scene.name + (clock.empty() ? "" : kClockBegins + clock + ")");
                     planned.engine = engine.spec.text();
                     planned.sizeUnit = "worlds";
                     planned.size = size;
