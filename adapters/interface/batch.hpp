@@ -52,7 +52,7 @@ class LoopedWorlds final : public BatchWorlds {
     }
 
   private:
-    /// The first step without a time shows that the engine has no clock; its counters are not asked for again.
+    /// The first step without a time shows that the engine has no clock; its counters are not queried again.
     void addSeconds(double own) {
         hasClock_ = own >= 0.0;
         seconds_ += own;
@@ -60,7 +60,7 @@ class LoopedWorlds final : public BatchWorlds {
 
     std::vector<std::unique_ptr<World>> worlds_;
     bool hasClock_ = true;
-    double seconds_ = 0.0;  ///< of the last step()
+    double seconds_ = 0.0;  ///< time of the last step() [s]
 };
 
 }  // namespace rigor::adapter

@@ -83,7 +83,7 @@ bool ContactCache<S>::hasHardlyMoved(const Candidate<S>& candidate) const {
 template <class S>
 void ContactCache<S>::storeResult(Candidate<S>& candidate) const {
     candidate.cached = slack(candidate) > 0;
-    // What an ended contact has left would be part of the hash, and not of a snapshot of candidates without a result.
+    // The normal of an ended contact would be part of the hash, and not of a snapshot of candidates without a result.
     candidate.onB = false;
     candidate.normal.setZero();
     if (candidate.cached) candidate.relative = relative(candidate);

@@ -37,7 +37,7 @@ const std::vector<BatchScene>& scenes() {
 
 constexpr int kFirstSteps = 60, kStepsAtOnce = 10;
 constexpr std::size_t kLeastRounds = 5, kMost = 30;
-/// What separates the name of a scene from the clock of its times, where that is not this program's.
+/// Separator of a scene's name and the clock of its times, where that is not this program's.
 constexpr const char* kClockBegins = " (";
 /// Time of batches of steps after which no further one is begun [s].
 constexpr double kLongestRounds = 0.5;

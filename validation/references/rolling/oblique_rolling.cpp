@@ -209,7 +209,7 @@ class ObliqueRolling : public Reference {
     double longest_ = 0.0;                    ///< end of slide_, in s
     double slipTime_ = 0.0, rollTime_ = 0.0;  ///< [s]
     double braking_ = 0.0;                    ///< deceleration of a rolling ball [m/s^2]
-    State rolling_;                           ///< where it begins to roll
+    State rolling_;                           ///< state in which it begins to roll
 };
 
 }  // namespace
