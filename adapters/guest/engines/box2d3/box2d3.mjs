@@ -3,6 +3,7 @@
 //
 // Box2D 3 as a guest: its identity, its features, and its option keys.
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { breaking } from '../shared/breaking.mjs';
 import { version } from './library.mjs';
 import { Box2dWorld } from './world.mjs';
 
@@ -13,6 +14,7 @@ const capabilities = {
     joints: [
         ...['hinge', 'hinge.limit', 'hinge.motor', 'hinge.spring', 'slider', 'slider.limit', 'slider.motor', 'slider.spring'],
         ...['fixed', 'distance', 'distance.limit', 'distance.spring', 'wheel', 'wheel.limit', 'wheel.motor', 'wheel.spring'],
+        ...breaking(['hinge', 'slider', 'fixed', 'distance', 'wheel']),
     ],
     kinematic_bodies: true,
     damping: true,

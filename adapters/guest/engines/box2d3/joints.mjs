@@ -125,3 +125,9 @@ export function addJoint(world, scenario, joint, bodyA, bodyB, poseA, poseB) {
     def.delete();
     return created;
 }
+
+/** Force and torque of the last sub-step. */
+export function reactionOf(joint) {
+    const { x, y } = B.b2Joint_GetConstraintForce(joint);
+    return { force: Math.hypot(x, y), torque: Math.abs(B.b2Joint_GetConstraintTorque(joint)) };
+}

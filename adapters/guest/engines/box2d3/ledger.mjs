@@ -3,6 +3,7 @@
 //
 // What Box2D 3 does otherwise than the scenario asks, as measured (README.md).
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { ledgerOfBreaking } from '../shared/breaking.mjs';
 
 export function ledgerOf({ scenario, settings, substeps, reach }) {
     const lines = [
@@ -51,5 +52,6 @@ export function ledgerOf({ scenario, settings, substeps, reach }) {
         lines.push(
             rg.approximate('springs', 'of constant stiffness', 'of constant frequency', "the library's springs follow the mass of their coordinate"),
         );
+    lines.push(...ledgerOfBreaking(scenario, 'b2Joint_GetConstraintForce and b2Joint_GetConstraintTorque'));
     return lines;
 }

@@ -4,9 +4,10 @@
 // A scenario in Box2D 3. The coefficients of a pair come from the library's callbacks, by the materials' numbers.
 import { performance } from 'node:perf_hooks';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { Breaking } from '../shared/breaking.mjs';
 import { addJoints } from '../shared/joints.mjs';
 import { reachOf } from '../shared/reach.mjs';
-import { addJoint } from './joints.mjs';
+import { addJoint, reactionOf } from './joints.mjs';
 import { ledgerOf } from './ledger.mjs';
 import { angleOf, B, quaternionOf, vector, withRot, withVec2 } from './library.mjs';
 import { addShapes } from './shapes.mjs';
@@ -33,7 +34,8 @@ export class Box2dWorld extends rg.World {
         this.reach = reachOf(scenario);
         this.bodies = scenario.bodies.map((body, i) => this.addBody(body, i));
         const outside = () => this.stillBody();
-        addJoints(scenario, this.bodies, outside, (...joint) => addJoint(this.world, scenario, ...joint));
+        const joints = addJoints(scenario, this.bodies, outside, (...joint) => addJoint(this.world, scenario, ...joint));
+        this.breaking = new Breaking(scenario, joints, reactionOf, (joint) => B.b2DestroyJoint(joint, true));
     }
 
     createWorld() {
@@ -151,7 +153,7 @@ export class Box2dWorld extends rg.World {
         const asleep = this.bodies.flatMap((body, i) =>
             this.scenario.bodies[i].type === 'dynamic' && !B.b2Body_IsAwake(body) ? [i] : [],
         );
-        return { seconds, asleep };
+        return { seconds, asleep, broken: this.breaking.afterStep() };
     }
 
     /** Manifolds are those of the start of the step. Points that are apart and were never pushed did not act. */

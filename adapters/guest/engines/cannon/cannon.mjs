@@ -4,6 +4,7 @@
 // cannon-es as a guest: its identity, its features, and its option keys.
 import { readFileSync } from 'node:fs';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { breaking } from '../shared/breaking.mjs';
 import { CannonWorld } from './world.mjs';
 
 const manifest = new URL('../node_modules/cannon-es/package.json', import.meta.url);
@@ -21,7 +22,7 @@ const capabilities = {
         ...['sphere', 'box', 'cylinder', 'cone', 'hull', 'half_space', 'triangle_mesh', 'height_field'],
         ...['circle', 'polygon', 'half_plane'],
     ],
-    joints: ['ball', 'hinge', 'hinge.motor', 'fixed', 'distance'],
+    joints: ['ball', 'hinge', 'hinge.motor', 'fixed', 'distance', ...breaking(['ball', 'hinge', 'fixed', 'distance'])],
     contact_impulses: true,
     kinematic_bodies: true,
     damping: true,
@@ -33,6 +34,9 @@ const capabilities = {
         capsule: shapeTypes,
         ellipsoid: shapeTypes,
         slider: constraints,
+        wheel: constraints,
+        six_dof: constraints,
+        'hinge.spring': 'cannon-es.d.ts, class HingeConstraint: motor alone',
         'hinge.limit': 'cannon-es.d.ts, class HingeConstraint: motor alone',
         surface_velocity: 'cannon-es.d.ts, class FrictionEquation: the velocity of the bodies alone',
         static_friction: oneCoefficient,

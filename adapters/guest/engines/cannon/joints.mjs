@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { DistanceConstraint, HingeConstraint, LockConstraint, PointToPointConstraint } from 'cannon-es';
 import * as rg from '../../sdk/rigor_guest.mjs';
-import { toCannon } from './vectors.mjs';
+import { fromCannon, toCannon } from './vectors.mjs';
 
 function refuse(joint, what, documentation = '') {
     throw new rg.Unsupported(what, documentation, `joint '${joint.name}'`);
@@ -72,11 +72,22 @@ const makers = {
 /** A constraint of the library. Sides have `body`, and the functions `place` and `turn` into its frame. */
 export function jointOf(joint, a, b, dt, settings) {
     refuseSprings(joint);
-    if (joint.break_force !== null || joint.break_torque !== null) refuse(joint, `${joint.type}.break`);
     const created = makers[joint.type](joint, a, b, dt);
     created.collideConnected = joint.collide_connected;
+    created.anchorOnB = toCannon(b.place(joint.anchor_b));
     const step = settings.joint_step === 'scenario' ? dt : 1 / 60;
     for (const equation of created.equations)
         equation.setSpookParams(Number(settings.joint_stiffness), Number(settings.joint_relaxation), step);
     return created;
+}
+
+/** Force and torque on B that the solver has found for the last step; the torque is about the joint's anchor. */
+export function reactionOf(joint) {
+    const sums = { force: [0, 0, 0], torque: [0, 0, 0] };
+    for (const { multiplier, jacobianElementB: on } of joint.equations) {
+        sums.force = rg.sum(sums.force, rg.scaled(multiplier, fromCannon(on.spatial)));
+        sums.torque = rg.sum(sums.torque, rg.scaled(multiplier, fromCannon(on.rotational)));
+    }
+    const arm = fromCannon(joint.bodyB.previousQuaternion.vmult(joint.anchorOnB));
+    return { force: rg.norm(sums.force), torque: rg.norm(rg.difference(sums.torque, rg.cross(arm, sums.force))) };
 }

@@ -3,6 +3,7 @@
 //
 // What cannon-es does otherwise than the scenario asks, as measured (README.md).
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { ledgerOfBreaking } from '../shared/breaking.mjs';
 
 export function ledgerOf({ scenario, settings }) {
     const { iterations, contact_stiffness, friction_bound } = settings;
@@ -33,5 +34,6 @@ export function ledgerOf({ scenario, settings }) {
                 ? rg.exact('joint_step', 'scenario')
                 : rg.approximate('joint_step', 'scenario', '1/60 s', 'the library gives every joint the step of its default'),
         );
+    lines.push(...ledgerOfBreaking(scenario, "the equations' multipliers"));
     return lines;
 }

@@ -7,9 +7,10 @@ import { performance } from 'node:perf_hooks';
 import { Body, ContactMaterial, Material, World } from 'cannon-es';
 import * as rg from '../../sdk/rigor_guest.mjs';
 import { filterBits } from '../shared/filters.mjs';
+import { Breaking } from '../shared/breaking.mjs';
 import { addJoints } from '../shared/joints.mjs';
 import { contactRows } from './contacts.mjs';
-import { jointOf } from './joints.mjs';
+import { jointOf, reactionOf } from './joints.mjs';
 import { ledgerOf } from './ledger.mjs';
 import { refuseUntouched, shapeOf } from './shapes.mjs';
 import { fromCannon, quatFromCannon, quatToCannon, toCannon } from './vectors.mjs';
@@ -132,9 +133,12 @@ export class CannonWorld extends rg.World {
             return { body, turn, place: (p) => turn(rg.difference(p, center)) };
         };
         if (this.scenario.joints.some((joint) => joint.body_a < 0)) this.world.addBody(outside);
-        addJoints(this.scenario, this.bodies, () => outside, (joint, a, b) =>
-            this.world.addConstraint(jointOf(joint, sideOf(a), sideOf(b), this.dt, this.settings)),
-        );
+        const joints = addJoints(this.scenario, this.bodies, () => outside, (joint, a, b) => {
+            const created = jointOf(joint, sideOf(a), sideOf(b), this.dt, this.settings);
+            this.world.addConstraint(created);
+            return created;
+        });
+        this.breaking = new Breaking(this.scenario, joints, reactionOf, (joint) => this.world.removeConstraint(joint));
     }
 
     stateOf(index) {
@@ -176,7 +180,8 @@ export class CannonWorld extends rg.World {
         this.world.step(this.dt);
         const seconds = 1e-3 * (performance.now() - start);
         const asleep = this.bodies.flatMap((body, i) => (body.sleepState === Body.SLEEPING ? [i] : []));
-        return { seconds, asleep, counters: { contacts: this.world.contacts.length } };
+        const broken = this.breaking.afterStep();
+        return { seconds, asleep, broken, counters: { contacts: this.world.contacts.length } };
     }
 
     contacts() {

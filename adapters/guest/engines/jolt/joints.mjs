@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { canBreak } from '../shared/breaking.mjs';
 import { openAxes } from '../shared/six_dof.mjs';
 import { J, withVec3 } from './library.mjs';
 
@@ -23,6 +24,12 @@ function spring(settings, stiffness, damping) {
 const makers = {
     ball: () => new J.PointConstraintSettings(),
     fixed: () => new J.FixedConstraintSettings(),
+    /** The package does not give the impulses of the library's fixed joint, but those of one that holds six coordinates. */
+    fixed_that_breaks: () => {
+        const settings = new J.SixDOFConstraintSettings();
+        for (let k = 0; k < 6; ++k) settings.MakeFixedAxis(k);
+        return settings;
+    },
     hinge: (_joint, axis) => {
         const settings = new J.HingeConstraintSettings();
         for (const vector of [settings.mHingeAxis1, settings.mHingeAxis2]) set(vector, axis);
@@ -151,12 +158,13 @@ export function addJoint(system, joint, bodyA, bodyB, poseA, poseB) {
     const anchorOf = (pose, anchor) => rg.sum(pose.position, rg.rotate(pose.orientation, anchor));
     const axis = rg.rotate(poseA.orientation, joint.axis_a);
     const normal = joint.normal_a && rg.rotate(poseA.orientation, joint.normal_a);
-    const settings = makers[joint.type](joint, axis, normal);
+    const kind = joint.type === 'fixed' && canBreak(joint) ? 'fixed_that_breaks' : joint.type;
+    const settings = makers[kind](joint, axis, normal);
     settings.mSpace = J.EConstraintSpace_WorldSpace;
-    const placed = joint.type === 'six_dof' || joint.type === 'cone_twist' ? 'mPosition' : 'mPoint';
+    const placed = ['six_dof', 'cone_twist', 'fixed_that_breaks'].includes(kind) ? 'mPosition' : 'mPoint';
     set(settings[`${placed}1`], anchorOf(poseA, joint.anchor_a));
     set(settings[`${placed}2`], anchorOf(poseB, joint.anchor_b));
-    if (joint.type === 'fixed') settings.mAutoDetectPoint = false;
+    if (kind === 'fixed') settings.mAutoDetectPoint = false;
     const driven = joint.type === 'hinge' || joint.type === 'slider';
     if (driven) limit(settings, joint, joint.axes[0] ?? { mode: 'free' });
     const created = settings.Create(bodyA, bodyB);
@@ -164,4 +172,27 @@ export function addJoint(system, joint, bodyA, bodyB, poseA, poseB) {
     if (driven && joint.axes[0]) drive(created, joint, joint.axes[0]);
     if (joint.type === 'six_dof') driveSix(created, joint);
     system.AddConstraint(created);
+    return created;
+}
+
+/** Classes of joints whose force, and whose torque, is read. */
+const kReactions = {
+    ball: 'PointConstraint',
+    fixed: 'SixDOFConstraint',
+    hinge: 'HingeConstraint',
+    distance: 'DistanceConstraint',
+};
+export const breakable = Object.keys(kReactions);
+
+/** Mean force and torque of a joint over the last `seconds`. */
+export function reactionOf(created, type, seconds) {
+    const joint = J.castObject(created, J[kReactions[type]]);
+    const length = (value) => {
+        if (typeof value === 'number') return Math.abs(value);
+        return value.Length ? value.Length() : Math.hypot(value.GetComponent(0), value.GetComponent(1));
+    };
+    return {
+        force: length(joint.GetTotalLambdaPosition()) / seconds,
+        torque: joint.GetTotalLambdaRotation ? length(joint.GetTotalLambdaRotation()) / seconds : 0,
+    };
 }

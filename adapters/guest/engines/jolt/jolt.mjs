@@ -3,6 +3,8 @@
 //
 // Jolt Physics as a guest: its identity, its features, and its option keys.
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { breaking } from '../shared/breaking.mjs';
+import { breakable } from './joints.mjs';
 import { version } from './library.mjs';
 import { JoltWorld } from './world.mjs';
 
@@ -10,6 +12,7 @@ const joints = ['ball', 'fixed', 'distance', 'distance.limit', 'distance.spring'
 for (const type of ['hinge', 'slider']) joints.push(type, ...['limit', 'motor', 'spring'].map((f) => `${type}.${f}`));
 
 joints.push('cone_twist', 'cone_twist.limit', 'six_dof', 'six_dof.limit', 'six_dof.motor', 'six_dof.spring');
+joints.push(...breaking(breakable));
 
 const oneCoefficient = 'types.d.ts, class ContactSettings: mCombinedFriction is the one coefficient of a contact';
 const capabilities = {

@@ -3,8 +3,9 @@
 //
 // What Jolt does otherwise than the scenario asks, as measured (README.md).
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { ledgerOfBreaking } from '../shared/breaking.mjs';
 
-export function ledgerOf({ settings, collisionSteps }) {
+export function ledgerOf({ scenario, settings, collisionSteps }) {
     const off = (topic, value, unit, reason) =>
         Number(value) > 0 ? rg.approximate(topic, '0', `${value} ${unit}`, reason) : rg.exact(topic, '0');
     const lines = [
@@ -36,5 +37,6 @@ export function ledgerOf({ settings, collisionSteps }) {
             ? rg.approximate('sleeping', 'off', 'on', 'bodies at rest are stopped')
             : rg.exact('sleeping', 'off'),
     );
+    lines.push(...ledgerOfBreaking(scenario, 'GetTotalLambdaPosition and GetTotalLambdaRotation'));
     return lines;
 }

@@ -4,9 +4,10 @@
 // A scenario in Jolt.
 import { performance } from 'node:perf_hooks';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { Breaking } from '../shared/breaking.mjs';
 import { addJoints } from '../shared/joints.mjs';
 import { Contacts } from './contacts.mjs';
-import { addJoint } from './joints.mjs';
+import { addJoint, reactionOf } from './joints.mjs';
 import { ledgerOf } from './ledger.mjs';
 import { J, quaternion, using, vector, withQuat, withRVec3, withVec3 } from './library.mjs';
 import { shapeOf } from './shapes.mjs';
@@ -57,7 +58,11 @@ export class JoltWorld extends rg.World {
         this.system.SetContactListener(this.contactsOf.listener);
         this.bodies = scenario.bodies.map((body, i) => this.addBody(body, i));
         const outside = () => J.JoltInterface.prototype.sGetFixedToWorldBody();
-        addJoints(scenario, this.bodies, outside, (...joint) => addJoint(this.system, ...joint));
+        const joints = addJoints(scenario, this.bodies, outside, (...joint) => addJoint(this.system, ...joint));
+        // The library keeps the impulses of its last collision step.
+        const last = dt / this.collisionSteps;
+        const reaction = (joint, index) => reactionOf(joint, scenario.joints[index].type, last);
+        this.breaking = new Breaking(scenario, joints, reaction, (joint) => joint.SetEnabled(false));
         this.system.OptimizeBroadPhase();
     }
 
@@ -151,7 +156,7 @@ export class JoltWorld extends rg.World {
         this.jolt.Step(this.dt, this.collisionSteps);
         const seconds = 1e-3 * (performance.now() - start);
         const asleep = this.bodies.flatMap((body, i) => (body.IsDynamic() && !body.IsActive() ? [i] : []));
-        return { seconds, asleep };
+        return { seconds, asleep, broken: this.breaking.afterStep() };
     }
 
     contacts() {

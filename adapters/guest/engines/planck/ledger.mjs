@@ -3,6 +3,7 @@
 //
 // What Planck.js does otherwise than the scenario asks.
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { ledgerOfBreaking } from '../shared/breaking.mjs';
 
 export function ledgerOf({ scenario, settings, reach }) {
     const lines = [
@@ -30,5 +31,6 @@ export function ledgerOf({ scenario, settings, reach }) {
         lines.push(
             rg.approximate('springs', 'of constant stiffness', 'of constant frequency', "the library's springs follow the mass of their coordinate"),
         );
+    lines.push(...ledgerOfBreaking(scenario, 'getReactionForce and getReactionTorque'));
     return lines;
 }

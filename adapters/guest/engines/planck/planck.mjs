@@ -4,6 +4,7 @@
 // Planck.js, Box2D 2.4's algorithm in JavaScript and double precision, as a guest: its identity, its features, its keys.
 import { readFileSync } from 'node:fs';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { breaking } from '../shared/breaking.mjs';
 import { PlanckWorld } from './world.mjs';
 
 const manifest = new URL('../node_modules/planck/package.json', import.meta.url);
@@ -16,6 +17,7 @@ const capabilities = {
     joints: [
         ...['hinge', 'hinge.limit', 'hinge.motor', 'slider', 'slider.limit', 'slider.motor', 'fixed'],
         ...['distance', 'distance.limit', 'distance.spring', 'wheel', 'wheel.motor', 'wheel.spring'],
+        ...breaking(['hinge', 'slider', 'fixed', 'distance', 'wheel']),
     ],
     contact_impulses: true,
     kinematic_bodies: true,
@@ -28,6 +30,9 @@ const capabilities = {
     library_lacks: {
         '3D': 'README.md of planck: "2D JavaScript Physics Engine"',
         capsule: 'planck.d.ts, classes derived from Shape: box, chain, circle, edge, polygon',
+        'hinge.spring': 'planck.d.ts, interface RevoluteJointOpt: limits and a motor',
+        'slider.spring': 'planck.d.ts, interface PrismaticJointOpt: limits and a motor',
+        'wheel.limit': 'planck.d.ts, interface WheelJointOpt: none',
         static_friction: 'planck.d.ts, interface FixtureOpt: friction is the one coefficient',
         rolling_friction: 'planck.d.ts, interface FixtureOpt: friction is the one coefficient',
     },

@@ -5,6 +5,7 @@
 import { performance } from 'node:perf_hooks';
 import { Settings, World } from 'planck';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { Breaking } from '../shared/breaking.mjs';
 import { addJoints } from '../shared/joints.mjs';
 import { reachOf } from '../shared/reach.mjs';
 import { Contacts } from './contacts.mjs';
@@ -37,9 +38,14 @@ export class PlanckWorld extends rg.World {
         this.reach = reachOf(scenario);
         this.bodies = scenario.bodies.map((body, i) => this.addBody(body, i));
         const outside = () => this.world.createBody();
-        addJoints(scenario, this.bodies, outside, (...joint) =>
+        const joints = addJoints(scenario, this.bodies, outside, (...joint) =>
             this.world.createJoint(jointOf(scenario, ...joint)),
         );
+        const reactionOf = (joint) => ({
+            force: joint.getReactionForce(1 / dt).length(),
+            torque: Math.abs(joint.getReactionTorque(1 / dt)),
+        });
+        this.breaking = new Breaking(scenario, joints, reactionOf, (joint) => this.world.destroyJoint(joint));
     }
 
     /** The library's settings are of the whole process: set again for every step. */
@@ -112,7 +118,7 @@ export class PlanckWorld extends rg.World {
         this.world.step(this.dt, Number(this.settings.velocity_iterations), Number(this.settings.position_iterations));
         const seconds = 1e-3 * (performance.now() - start);
         const asleep = this.bodies.flatMap((body, i) => (body.isDynamic() && !body.isAwake() ? [i] : []));
-        return { seconds, asleep };
+        return { seconds, asleep, broken: this.breaking.afterStep() };
     }
 
     contacts() {

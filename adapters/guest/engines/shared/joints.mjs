@@ -4,14 +4,14 @@
 const atOrigin = { position: [0, 0, 0], orientation: [1, 0, 0, 0] };
 
 /**
- * Calls add(joint, bodyA, bodyB, poseA, poseB) for every joint of a scenario. `bodies` are the library's, in the scenario's
+ * Calls add(joint, bodyA, bodyB, poseA, poseB) for every joint of a scenario and returns what it returned. `bodies` are the library's, in the scenario's
  * order; where A is the world, its body is what outside() returns, in the world frame.
  */
 export function addJoints(scenario, bodies, outside, add) {
-    for (const joint of scenario.joints) {
+    return scenario.joints.map((joint) => {
         const [a, b] = [joint.body_a, joint.body_b];
         const bodyA = a < 0 ? outside() : bodies[a];
         const poseA = a < 0 ? atOrigin : scenario.bodies[a];
-        add(joint, bodyA, bodies[b], poseA, scenario.bodies[b]);
-    }
+        return add(joint, bodyA, bodies[b], poseA, scenario.bodies[b]);
+    });
 }

@@ -8,6 +8,9 @@ import { options } from './rapier_options.mjs';
 import { RapierWorld } from './rapier_world.mjs';
 
 const oneCoefficient = 'geometry/collider.d.ts, setFriction: the one coefficient of friction';
+/** Nothing tells what a joint has borne, so that nothing can break it. */
+const lacksOfBreaking = (joints) =>
+    Object.fromEntries(joints.map((type) => [`${type}.break`, 'dynamics/impulse_joint.d.ts, class ImpulseJoint: no force of a joint']));
 const limited = ['hinge', 'slider'].flatMap((type) => [type, ...['limit', 'motor', 'spring'].map((f) => `${type}.${f}`)]);
 
 /** Serves the package of `space`. `own` has its shapes, the joints and the lacks that the other package does not have. */
@@ -33,6 +36,7 @@ export function serveRapier(space, dimension, own) {
             shape_filters: true,
             library_lacks: {
                 ...own.lacks,
+                ...lacksOfBreaking(['ball', 'hinge', 'slider', 'fixed', 'six_dof', 'wheel', 'cone_twist']),
                 distance: 'dynamics/impulse_joint.d.ts, enum JointType: Rope bounds a distance from above, Spring is soft',
                 surface_velocity: 'geometry/narrow_phase.d.ts: solverContactTangentVelocity is read, and nothing sets it',
                 static_friction: oneCoefficient,
