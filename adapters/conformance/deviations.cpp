@@ -79,6 +79,8 @@ constexpr Deviation kDeviations[] = {
      "the bound of the friction force is taken for one of the impulse: bodies stop at once"},
     {"cannon", "", "matched", 0, "pair_friction", 0.84,
      "every point of a contact has friction for the whole weight"},
+    {"cannon", "", "matched", 3, "friction_straight", 0.05,
+     "friction is a pyramid of two tangents: what slides along neither nor between them is turned"},
     {"mujoco3", "", "", 0, "hull_ball_overlap", 1.0,
      "native convex collision misses balls on the axis of a cubic mesh"},
     {"mujoco3", "", "", 0, "hull_ball_depth_distance", 0.51,
