@@ -20,6 +20,8 @@ const capabilities = {
     damping: true,
     gravity_scale: true,
     center_of_mass_offset: true,
+    rolling_friction: true,
+    surface_velocity: true,
     contact_filters: true,
     shape_filters: true,
     library_lacks: {

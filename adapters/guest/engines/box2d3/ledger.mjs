@@ -4,6 +4,7 @@
 // What Box2D 3 does otherwise than the scenario asks, as measured (README.md).
 import * as rg from '../../sdk/rigor_guest.mjs';
 import { ledgerOfBreaking } from '../shared/breaking.mjs';
+import { moves } from './shapes.mjs';
 
 export function ledgerOf({ scenario, settings, substeps, reach }) {
     const lines = [
@@ -51,6 +52,19 @@ export function ledgerOf({ scenario, settings, substeps, reach }) {
     if (springs)
         lines.push(
             rg.approximate('springs', 'of constant stiffness', 'of constant frequency', "the library's springs follow the mass of their coordinate"),
+        );
+    if (scenario.bodies.some((body) => body.shapes.some(moves)))
+        lines.push(
+            rg.approximate('surface_velocity', 'of every point', 'round the shape', 'the library has one speed for a whole outline: that of its upper side'),
+        );
+    if (scenario.pairs.some((pair) => pair.rolling_friction > 0))
+        lines.push(
+            rg.approximate(
+                'rolling_friction',
+                'of every pair',
+                'of round shapes on others',
+                'the library takes the greater part of a radius and the greater radius: two circles of different radii have more',
+            ),
         );
     lines.push(...ledgerOfBreaking(scenario, 'b2Joint_GetConstraintForce and b2Joint_GetConstraintTorque'));
     return lines;

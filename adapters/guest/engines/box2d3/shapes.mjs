@@ -39,6 +39,24 @@ function segmentFrom(body, def, a, b) {
     return B.b2CreateSegmentShape(body, def, segment);
 }
 
+/** The surface has a velocity over its body. */
+export const moves = ({ surface_velocity: { linear, angular } }) => [...linear, ...angular].some((v) => v !== 0);
+
+/**
+ * The library's surfaces run round their shape with one speed: a circle that turns about its centre is that, and a velocity along
+ * one side of another shape is on this side, for which the upper one is taken.
+ */
+export function tangentSpeed(shape, body, gravity) {
+    if (!moves(shape)) return 0;
+    const { linear, angular } = shape.surface_velocity;
+    const isCentred = shape.shape === 'circle' && rg.norm(shape.position) === 0;
+    if (isCentred && rg.norm(linear) === 0) return -angular[2] * shape.radius;
+    if (rg.norm(angular) > 0 || rg.norm(gravity) === 0)
+        throw new rg.Unsupported('a surface that turns about another point than the centre of a circle', '', `body '${body.name}'`);
+    const right = rg.scaled(1 / rg.norm(gravity), [-gravity[1], gravity[0], 0]);
+    return rg.dot(rg.rotate(body.orientation, linear), right);
+}
+
 /** Segments of a chain, which has two sides; the library's own chain has one. */
 function chainSegments({ vertices, loop }) {
     const pairs = vertices.slice(1).map((v, k) => [vertices[k], v]);

@@ -5,16 +5,19 @@
 import { performance } from 'node:perf_hooks';
 import * as rg from '../../sdk/rigor_guest.mjs';
 import { Breaking } from '../shared/breaking.mjs';
+import { touchingPairs } from '../shared/coefficients.mjs';
 import { addJoints } from '../shared/joints.mjs';
 import { reachOf } from '../shared/reach.mjs';
 import { addJoint, reactionOf } from './joints.mjs';
 import { ledgerOf } from './ledger.mjs';
 import { angleOf, B, quaternionOf, vector, withRot, withVec2 } from './library.mjs';
-import { addShapes } from './shapes.mjs';
+import { addShapes, tangentSpeed } from './shapes.mjs';
 
 /** The library multiplies velocities by 1 / (1 + c h) in every sub-step h; c for what is kept per second. */
 const dampingFor = (kept, h) => (kept ** -h - 1) / h;
 const keyOf = (shape) => shape.index1;
+
+const kRolling = 'Box2D.deluxe.d.ts, interface b2SurfaceMaterial: rollingResistance is of a shape, and no callback combines two';
 
 export class Box2dWorld extends rg.World {
     impulses = true;
@@ -91,10 +94,24 @@ export class Box2dWorld extends rg.World {
         return created;
     }
 
+    /**
+     * The library's is a part of the radius of round shapes, and the greater of two shapes': one material of a round shape has one
+     * rolling friction with all that it touches.
+     */
+    rollingResistance(shape, user) {
+        const met = touchingPairs(this.scenario).filter(({ a, b }) => a === shape.material || b === shape.material);
+        const all = new Set(met.map((pair) => pair.rolling_friction));
+        if (all.size === 0 || (all.size === 1 && all.has(0)) || !(shape.radius > 0)) return 0;
+        if (all.size > 1) throw new rg.Unsupported('several rolling frictions of one material', kRolling, user);
+        return [...all][0] / shape.radius;
+    }
+
     addShape(created, body, shape, index, k) {
         const def = B.b2DefaultShapeDef();
         const material = def.material;
         material.userMaterialId = BigInt(shape.material);
+        material.tangentSpeed = tangentSpeed(shape, body, this.scenario.gravity);
+        material.rollingResistance = this.rollingResistance(shape, `body '${body.name}'`);
         def.material = material;
         const filter = def.filter;
         filter.categoryBits = shape.filter.layers;
