@@ -66,7 +66,29 @@ TEST(Describe, FurtherPresetsHaveNamesAndKeysOfTheirOwn) {
     }
 }
 
-class Build : public DynamicsTest {};
+class Build : public DynamicsTest {
+  protected:
+    /// Boxes that fall on each other and on the ground.
+    Scenario pile(double shift) const {
+        Scenario s = scene(0.4, 0.3);
+        s.gravity = {0, -9.81, 0};
+        addStatic(s, block({5, 1, 5}), {0, -1, 0});
+        s.bodies[0].collides = hasShape("box");
+        for (int i = 0; i < 5; ++i)
+            addBody(s, block({0.3, 0.2, 0.25}), flat({0.15 * (i % 2) + shift, 0.3 + 0.5 * i, 0.05 * i}),
+                    1.0 + i, boxMoments(1.0 + i, {0.3, 0.2, 0.25}));
+        return s;
+    }
+    static std::vector<BodyState> statesOf(const adapter::World& world, const Scenario& s) {
+        std::vector<BodyState> states(s.bodies.size());
+        world.readStates(states);
+        return states;
+    }
+    static void expectSameBits(const std::vector<BodyState>& a, const std::vector<BodyState>& b) {
+        ASSERT_EQ(a.size(), b.size());
+        EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(BodyState)), 0);
+    }
+};
 INSTANTIATE_TEST_SUITE_P(Kit, Build, testing::ValuesIn(dynamicsArenas()), arenaName);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Build);
 
@@ -139,32 +161,42 @@ TEST_P(Build, TheLedgerExplainsWhatDiffers) {
 }
 
 TEST_P(Build, StepsRepeatBitForBitAndWorldsDoNotMeet) {
-    const auto pile = [&](double shift) {
-        Scenario s = scene(0.4, 0.3);
-        s.gravity = {0, -9.81, 0};
-        addStatic(s, block({5, 1, 5}), {0, -1, 0});
-        s.bodies[0].collides = hasShape("box");
-        for (int i = 0; i < 5; ++i)
-            addBody(s, block({0.3, 0.2, 0.25}), flat({0.15 * (i % 2) + shift, 0.3 + 0.5 * i, 0.05 * i}),
-                    1.0 + i, boxMoments(1.0 + i, {0.3, 0.2, 0.25}));
-        return s;
-    };
-    const auto bitsOf = [](const adapter::World& world, const Scenario& s) {
-        std::vector<BodyState> states(s.bodies.size());
-        world.readStates(states);
-        return states;
-    };
     const Scenario s = pile(0.0), other = pile(0.11);
     auto alone = build(s, 1.0 / 120.0);
     run(*alone, 150);
-    const auto expected = bitsOf(*alone, s);
     auto interleaved = build(s, 1.0 / 120.0), neighbour = build(other, 1.0 / 120.0);
     for (int i = 0; i < 150; ++i) {
         interleaved->step();
         neighbour->step();
     }
-    const auto found = bitsOf(*interleaved, s);
-    EXPECT_EQ(std::memcmp(expected.data(), found.data(), expected.size() * sizeof(BodyState)), 0);
+    expectSameBits(statesOf(*alone, s), statesOf(*interleaved, s));
+}
+
+/// An engine that has served other cases gives the bits of one that has not: a guest is a fresh process here, so a run
+/// may keep one for many cases (`keep_alive` of its manifest).
+TEST_P(Build, AnEngineThatServedOthersGivesTheBitsOfAFreshOne) {
+    const Scenario s = pile(0.0);
+    run(*build(pile(0.11), 1.0 / 60.0), 100);
+    Scenario refused = pile(0.05);
+    refused.bodies[1].shapes[0].material = 99;
+    EXPECT_ANY_THROW(build(refused, 0.01));
+    if (hasJoint("ball")) {
+        Scenario hanging = pile(3.0);
+        Joint joint;
+        joint.type = JointType::Ball;
+        joint.bodyB = 1;
+        joint.anchorA = hanging.bodies[1].pose.position;
+        hanging.joints.push_back(joint);
+        run(*build(hanging, 1.0 / 240.0), 50);
+    }
+    auto used = build(s, 1.0 / 120.0);
+    const adapter::LoadedEngine unused = adapter::loadEngine(engineSpec());
+    auto fresh = buildIn(*unused, s, 1.0 / 120.0);
+    for (int i = 0; i < 10; ++i) {
+        run(*used, 15);
+        run(*fresh, 15);
+        expectSameBits(statesOf(*used, s), statesOf(*fresh, s));
+    }
 }
 
 /// A refusal is the library's where Capabilities has a document for it, and only there.

@@ -119,10 +119,15 @@ int DynamicsTest::addStatic(Scenario& s, const Geometry& geometry, const Vec3& p
 }
 
 std::unique_ptr<adapter::World> DynamicsTest::build(const Scenario& s, double dt) const {
+    return buildIn(engine(), s, dt);
+}
+
+std::unique_ptr<adapter::World> DynamicsTest::buildIn(const adapter::Engine& of, const Scenario& s,
+                                                      double dt) const {
     auto with = engineSpec();
     with.options["preset"] = arena().preset;
     with.options["precision"] = arena().precision;
-    return engine().dynamics()->build(s, dt, adapter::resolveSettings(with, engine()));
+    return of.dynamics()->build(s, dt, adapter::resolveSettings(with, of));
 }
 
 Vec3 boxMoments(double mass, const Vec3& h) {

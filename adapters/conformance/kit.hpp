@@ -100,6 +100,8 @@ class DynamicsTest : public testing::TestWithParam<Arena> {
     int addStatic(Scenario& s, const Geometry& geometry, const Vec3& position = {},
                   Quat orientation = {}) const;
     std::unique_ptr<adapter::World> build(const Scenario& s, double dt) const;
+    /// In this engine, which is the one under test, loaded once more.
+    std::unique_ptr<adapter::World> buildIn(const adapter::Engine& of, const Scenario& s, double dt) const;
 };
 
 /// Moments of a solid box of these half extents.

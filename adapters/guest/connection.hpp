@@ -16,6 +16,7 @@ class Connection {
     explicit Connection(adapter::GuestManifest manifest);
 
     const adapter::GuestManifest& manifest() const { return manifest_; }
+    std::int64_t worldsBefore() const { return process_.worldsBefore(); }
 
     /// Sends a request and returns the answer. Throws Unsupported or BadInput as the guest answers, EngineFailure for
     /// everything else. Threads take turns.

@@ -21,7 +21,9 @@ using namespace adapter;
 class GuestEngine final : public EngineWithPresets, public DynamicsEngine, public CollisionEngine {
   public:
     explicit GuestEngine(const GuestManifest& manifest)
-        : connection_(std::make_shared<Connection>(manifest)), description_(sayHello(*connection_)) {}
+        : connection_(std::make_shared<Connection>(manifest)),
+          description_(sayHello(*connection_)),
+          worlds_(connection_->worldsBefore()) {}
 
     EngineInfo info() const override { return description_.info; }
     Capabilities capabilities() const override { return description_.capabilities; }
@@ -103,7 +105,7 @@ class GuestEngine final : public EngineWithPresets, public DynamicsEngine, publi
 
     std::shared_ptr<Connection> connection_;
     Description description_;
-    mutable std::atomic<int> worlds_ = 0;
+    mutable std::atomic<std::int64_t> worlds_;  ///< number of the last world
 };
 
 std::unique_ptr<Engine> openGuest(const GuestManifest& manifest) {

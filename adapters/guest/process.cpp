@@ -2,9 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "adapters/guest/process.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -15,6 +13,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 
 namespace rigor::guest {
@@ -25,51 +24,48 @@ constexpr std::size_t kLogTail = 2000;  ///< bytes of the log that a message may
 constexpr auto kMemoryCheck = std::chrono::milliseconds(100);
 constexpr auto kGrace = std::chrono::milliseconds(300);  ///< time to end by itself, once its input has ended
 
-struct Ends {
-    int read = -1, write = -1;
-};
-
-Ends makePipe() {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
-    return {ends[0], ends[1]};
+/// Processor time of a process so far [s]; negative where it is not known.
+double processorTime(pid_t pid) {
+    clockid_t clock = 0;
+    timespec t{};
+    if (clock_getcpuclockid(pid, &clock) != 0 || clock_gettime(clock, &t) != 0) return -1.0;
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// A socket, because a write to one whose reader is gone can do without a signal.
-Ends makeInput() {
-    int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-        throw std::runtime_error(std::string("socketpair: ") + std::strerror(errno));
-    return {ends[0], ends[1]};
-}
+/// The limit of time on an answer. On a busy machine it is extended as long as the guest works and has had less processor
+/// time than the limit.
+class AnswerLimit {
+  public:
+    AnswerLimit(pid_t pid, double seconds)
+        : pid_(pid),
+          seconds_(seconds),
+          cpuAtStart_(processorTime(pid)),
+          start_(Clock::now()),
+          workedAt_(start_ +
+                    std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
 
-struct Start {
-    std::vector<char*> argv;
-    const char* folder = nullptr;
-    int input = -1, output = -1, log = -1;
-    pid_t parent = -1;
-    bool freeAddresses = false;
-};
-
-/// Runs between fork and exec, with calls only that are safe there. The guest stays in this process's group, which
-/// is killed as a whole at the end of a case.
-[[noreturn]] void becomeGuest(const Start& start) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != start.parent) _exit(127);  // it died before prctl took effect
-    dup2(start.input, STDIN_FILENO);
-    dup2(start.output, STDOUT_FILENO);
-    dup2(start.log, STDERR_FILENO);
-    if (start.freeAddresses) {
-        struct rlimit limit {};
-        getrlimit(RLIMIT_AS, &limit);
-        limit.rlim_cur = limit.rlim_max;
-        setrlimit(RLIMIT_AS, &limit);
+    bool isOver() {
+        const auto now = Clock::now();
+        const double waited = std::chrono::duration<double>(now - start_).count();
+        if (waited < seconds_) return false;
+        const double used = processorTime(pid_) - cpuAtStart_;
+        if (cpuAtStart_ < 0.0 || used < 0.0 || used >= seconds_ || waited >= kMostWaiting * seconds_)
+            return true;
+        if (used > cpuSeen_ + 1e-3) {
+            cpuSeen_ = used;
+            workedAt_ = now;
+        }
+        return now - workedAt_ >= kBlocked;
     }
-    if (chdir(start.folder) == 0) execvp(start.argv[0], start.argv.data());
-    const char* message = std::strerror(errno);
-    (void)!write(STDERR_FILENO, message, std::strlen(message));
-    _exit(127);
-}
+
+  private:
+    static constexpr double kMostWaiting = 20.0;
+    /// A guest that has done nothing for so long is blocked: on a busy machine it would have had its turn.
+    static constexpr auto kBlocked = std::chrono::seconds(2);
+    pid_t pid_;
+    double seconds_, cpuAtStart_, cpuSeen_ = 0.0;
+    Clock::time_point start_, workedAt_;
+};
 
 /// The limit of this process's addresses [KiB], which is a case's limit of memory; 0: none.
 std::size_t addressLimitKiB() {
@@ -106,53 +102,37 @@ std::string endingOf(int status) {
 }  // namespace
 
 Process::Process(const adapter::GuestManifest& manifest) : name_(manifest.name) {
-    Start start;
-    std::vector<std::string> words = manifest.command;
-    for (std::string& word : words) start.argv.push_back(word.data());
-    start.argv.push_back(nullptr);
-    start.folder = manifest.folder.c_str();
-    start.parent = getpid();
-    start.freeAddresses = manifest.memory == adapter::GuestMemory::Resident;
-    if (start.freeAddresses) mostResidentKiB_ = addressLimitKiB();
-    const Ends in = makeInput(), out = makePipe(), err = makePipe();
-    start.input = in.read;
-    start.output = out.write;
-    start.log = err.write;
-    pid_ = fork();
-    if (pid_ == 0) becomeGuest(start);
-    close(in.read);
-    close(out.write);
-    close(err.write);
-    input_ = in.write;
-    output_ = out.read;
-    log_ = err.read;
-    for (const int file : {input_, output_, log_}) fcntl(file, F_SETFL, O_NONBLOCK);
-    if (pid_ < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
+    if (manifest.memory == adapter::GuestMemory::Resident) mostResidentKiB_ = addressLimitKiB();
+    const auto lent = adapter::takeLentGuest(manifest.name);
+    isLent_ = lent.has_value();
+    if (isLent_) worldsBefore_ = lent->worldsBefore;
+    guest_ = isLent_ ? lent->process : adapter::startGuest(manifest);
 }
 
 Process::~Process() {
-    if (pid_ > 0) {
-        closeFile(input_);
-        for (const auto end = Clock::now() + kGrace; Clock::now() < end;) {
-            readLog();
-            siginfo_t ended{};
-            waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT);
-            if (ended.si_pid == pid_) break;
-            usleep(2000);
-        }
+    if (!isLent_ && guest_.pid > 0) waitForEnd();
+    // A guest that was lent goes on, for the next case.
+    if (!isLent_) kill();
+    adapter::closeStreams(guest_);
+}
+
+void Process::waitForEnd() {
+    closeFile(guest_.input);
+    for (const auto end = Clock::now() + kGrace; Clock::now() < end; usleep(2000)) {
+        readLog();
+        siginfo_t ended{};
+        waitid(P_PID, static_cast<id_t>(guest_.pid), &ended, WEXITED | WNOHANG | WNOWAIT);
+        if (ended.si_pid == guest_.pid) break;
     }
-    kill();
-    closeFile(input_);
-    closeFile(output_);
-    closeFile(log_);
 }
 
 void Process::kill() {
-    if (pid_ <= 0) return;
-    ::kill(pid_, SIGKILL);
-    while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+    if (guest_.pid <= 0) return;
+    ::kill(guest_.pid, SIGKILL);
+    // Its parent is another process where it was lent, and has not let go of its number.
+    while (!isLent_ && waitpid(guest_.pid, nullptr, 0) < 0 && errno == EINTR) {
     }
-    pid_ = -1;
+    guest_.pid = -1;
 }
 
 void Process::fail(Kind kind, const std::string& what) {
@@ -170,8 +150,8 @@ void Process::failEnded() {
     int status = 0;
     // Its output has ended: it ends, too, or has closed it and goes on.
     for (const auto end = Clock::now() + kGrace; Clock::now() < end; usleep(2000)) {
-        if (waitpid(pid_, &status, WNOHANG) != pid_) continue;
-        pid_ = -1;
+        if (isLent_ || waitpid(guest_.pid, &status, WNOHANG) != guest_.pid) continue;
+        guest_.pid = -1;
         const std::string cut =
             reader_.pending() == 0
                 ? ""
@@ -182,13 +162,14 @@ void Process::failEnded() {
 }
 
 void Process::waitForEvents(bool wantsToWrite, int milliseconds) {
-    pollfd files[] = {{output_, POLLIN, 0}, {log_, POLLIN, 0}, {wantsToWrite ? input_ : -1, POLLOUT, 0}};
+    pollfd files[] = {
+        {guest_.output, POLLIN, 0}, {guest_.log, POLLIN, 0}, {wantsToWrite ? guest_.input : -1, POLLOUT, 0}};
     poll(files, 3, milliseconds);
 }
 
 void Process::writeSome(const std::string& bytes, std::size_t& sent) {
     while (sent < bytes.size()) {
-        const ssize_t n = send(input_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+        const ssize_t n = send(guest_.input, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
         if (n < 0 && errno == EINTR) continue;
         if (n < 0 && errno != EAGAIN)
             sent = bytes.size();  // it no longer reads: its end is seen at its output
@@ -199,7 +180,7 @@ void Process::writeSome(const std::string& bytes, std::size_t& sent) {
 
 bool Process::readSome() {
     char buffer[65536];
-    const ssize_t n = read(output_, buffer, sizeof buffer);
+    const ssize_t n = read(guest_.output, buffer, sizeof buffer);
     if (n > 0) reader_.append(buffer, static_cast<std::size_t>(n));
     return n != 0 && (n > 0 || errno == EAGAIN || errno == EINTR);
 }
@@ -207,9 +188,9 @@ bool Process::readSome() {
 /// Passes the log on to this process's own, a bounded piece at a time.
 void Process::readLog() {
     char buffer[65536];
-    if (log_ < 0) return;
-    const ssize_t n = read(log_, buffer, sizeof buffer);
-    if (n == 0) closeFile(log_);
+    if (guest_.log < 0) return;
+    const ssize_t n = read(guest_.log, buffer, sizeof buffer);
+    if (n == 0) closeFile(guest_.log);
     if (n <= 0) return;
     (void)!write(STDERR_FILENO, buffer, static_cast<std::size_t>(n));
     logTail_.append(buffer, static_cast<std::size_t>(n));
@@ -220,7 +201,7 @@ void Process::checkMemory() {
     const auto now = Clock::now();
     if (mostResidentKiB_ == 0 || now < memoryCheckAt_) return;
     memoryCheckAt_ = now + kMemoryCheck;
-    if (const std::size_t has = residentKiB(pid_); has > mostResidentKiB_)
+    if (const std::size_t has = residentKiB(guest_.pid); has > mostResidentKiB_)
         fail(Kind::Memory, "has " + std::to_string(has >> 10) + " MiB in memory, it may have " +
                                std::to_string(mostResidentKiB_ >> 10));
 }
@@ -234,11 +215,12 @@ std::optional<Frame> Process::nextFrame() {
 }
 
 Frame Process::exchange(const Frame& request, double seconds) {
-    if (pid_ <= 0) throw adapter::EngineFailure(Kind::Died, "guest '" + name_ + "': it has ended before");
+    if (guest_.pid <= 0)
+        throw adapter::EngineFailure(Kind::Died, "guest '" + name_ + "': it has ended before");
     const std::string bytes = encode(request);
     std::size_t sent = 0;
     writeSome(bytes, sent);
-    const auto deadline = Clock::now() + std::chrono::duration<double>(seconds);
+    AnswerLimit limit(guest_.pid, seconds);
     for (;;) {
         checkMemory();
         if (auto frame = nextFrame()) return *std::move(frame);
@@ -246,7 +228,7 @@ Frame Process::exchange(const Frame& request, double seconds) {
         writeSome(bytes, sent);
         readLog();
         if (!readSome()) failEnded();
-        if (Clock::now() >= deadline) fail(Kind::Silent, "no answer within " + shownSeconds(seconds));
+        if (limit.isOver()) fail(Kind::Silent, "no answer within " + shownSeconds(seconds));
     }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A guest's process: started from its manifest, spoken to through pipes, and killed with its descendants when this
-// object goes, or by the system when this process ends.
+// A guest's process: started from its manifest, spoken to through pipes, and killed when this object goes, or by the
+// system when this process ends. One that was lent to this process (guest_start.hpp) goes on after it.
 #pragma once
 
 #include <sys/types.h>
@@ -13,7 +13,7 @@
 
 #include "adapters/guest/frame.hpp"
 #include "adapters/interface/engine_failure.hpp"
-#include "adapters/interface/guest.hpp"
+#include "adapters/interface/guest_start.hpp"
 
 namespace rigor::guest {
 
@@ -29,7 +29,9 @@ class Process {
     /// something else or nothing within the time, or takes more memory than it may; the process is dead then.
     Frame exchange(const Frame& request, double seconds);
 
-    pid_t pid() const { return pid_; }
+    pid_t pid() const { return guest_.pid; }
+    /// Numbers up to this one have been given to worlds, by other users of the guest.
+    std::int64_t worldsBefore() const { return worldsBefore_; }
 
   private:
     using Kind = adapter::EngineFailure::Kind;
@@ -42,12 +44,14 @@ class Process {
     void readLog();
     void checkMemory();
     std::optional<Frame> nextFrame();
+    void waitForEnd();
     void kill();
 
     std::string name_;
     std::size_t mostResidentKiB_ = 0;  ///< 0: its address space is limited instead, or nothing
-    pid_t pid_ = -1;
-    int input_ = -1, output_ = -1, log_ = -1;
+    adapter::GuestProcess guest_;
+    bool isLent_ = false;  ///< another process has started it, and keeps it
+    std::int64_t worldsBefore_ = 0;
     std::chrono::steady_clock::time_point memoryCheckAt_;
     FrameReader reader_;
     std::string logTail_;

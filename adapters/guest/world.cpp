@@ -163,7 +163,7 @@ std::vector<ContactPoint> contactsOf(const Table& t, std::size_t bodies) {
     return contacts;
 }
 
-GuestWorld::GuestWorld(std::shared_ptr<Connection> connection, int number, std::size_t joints,
+GuestWorld::GuestWorld(std::shared_ptr<Connection> connection, std::int64_t number, std::size_t joints,
                        Abilities abilities, std::vector<BodyState> states)
     : connection_(std::move(connection)),
       number_(number),
@@ -299,7 +299,7 @@ bool GuestWorld::restore(const std::vector<unsigned char>& bytes) {
     return true;
 }
 
-std::unique_ptr<World> buildWorld(std::shared_ptr<Connection> connection, int number,
+std::unique_ptr<World> buildWorld(std::shared_ptr<Connection> connection, std::int64_t number,
                                   const Scenario& scenario, Frame request) {
     request.header["world"] = number;
     const Frame answer = connection->call("build", std::move(request));

@@ -23,8 +23,8 @@ class GuestWorld : public adapter::World, private adapter::Snapshots {
         std::string warmStart;  ///< StateSetting::warmStart; "": states can not be set
     };
     /// `number` names the world in requests. `states`: after the build.
-    GuestWorld(std::shared_ptr<Connection> connection, int number, std::size_t joints, Abilities abilities,
-               std::vector<adapter::BodyState> states);
+    GuestWorld(std::shared_ptr<Connection> connection, std::int64_t number, std::size_t joints,
+               Abilities abilities, std::vector<adapter::BodyState> states);
     ~GuestWorld() override;
 
     void applyForce(int body, const adapter::Vec3& force, const adapter::Vec3& torque) override;
@@ -52,7 +52,7 @@ class GuestWorld : public adapter::World, private adapter::Snapshots {
     void takeStep(const Frame& answer);
 
     std::shared_ptr<Connection> connection_;
-    int number_;
+    std::int64_t number_;
     Abilities abilities_;
     std::vector<adapter::BodyState> states_;
     std::vector<double> forces_;  ///< forces of the next step, 7 numbers each: body, force, torque
@@ -69,7 +69,7 @@ class SettableGuestWorld final : public GuestWorld, public adapter::StateSetting
 };
 
 /// Builds a world from a request that is complete but for its kind; the answer decides what it can do.
-std::unique_ptr<adapter::World> buildWorld(std::shared_ptr<Connection> connection, int number,
+std::unique_ptr<adapter::World> buildWorld(std::shared_ptr<Connection> connection, std::int64_t number,
                                            const adapter::Scenario& scenario, Frame request);
 
 /// Reads rows of states, and of contacts between bodies of which there are so many.

@@ -68,6 +68,13 @@ class ManifestReader {
         return value->get<double>();
     }
 
+    bool flag(const char* key) {
+        const json* value = take(key);
+        if (value == nullptr) return false;
+        if (!value->is_boolean()) refuse(key, value->dump(), "true or false");
+        return value->get<bool>();
+    }
+
     void version(const char* key, int expected) {
         const json* value = take(key);
         if (value == nullptr || !value->is_number_integer() || value->get<int>() != expected)
@@ -137,6 +144,7 @@ GuestManifest readGuestManifest(const fs::path& file) {
     m.memory = memory == "resident" ? GuestMemory::Resident : GuestMemory::AddressSpace;
     m.startSeconds = read.seconds("start_seconds", m.startSeconds);
     m.replySeconds = read.seconds("reply_seconds", m.replySeconds);
+    m.keepAlive = read.flag("keep_alive");
     m.needs = read.texts("needs");
     m.install = read.text("install", "");
     read.refuseOthers();

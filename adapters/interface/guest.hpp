@@ -35,6 +35,7 @@ struct GuestManifest {
     double startSeconds = 20.0;      ///< longest time until the answer to the first request [s]
     double replySeconds = 60.0;      ///< longest time until any other answer [s]
     std::vector<std::string> needs;  ///< files that have to be there, relative to `folder`
+    bool keepAlive = false;          ///< may serve several cases, one after the other
     std::string install;             ///< command that installs the missing files, for messages
 
     /// The first thing that is missing for the guest to run, or "".

@@ -27,7 +27,8 @@ std::vector<std::string> jointsOf(int dimension) {
     for (const JointType type :
          {JointType::Ball, JointType::Hinge, JointType::Slider, JointType::Fixed, JointType::Distance,
           JointType::ConeTwist, JointType::SixDof, JointType::Wheel}) {
-        if (dimension == 2 && type == JointType::ConeTwist) continue;
+        const bool only3d = type == JointType::Ball || type == JointType::ConeTwist;
+        if (dimension == 2 && only3d) continue;
         const std::string name = jointName(type);
         names.push_back(name);
         if (scenario::jointAxisName(type, dimension, 0) != nullptr)

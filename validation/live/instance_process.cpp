@@ -30,7 +30,7 @@ InstanceProcess::InstanceProcess(const std::filesystem::path& binary, std::size_
     output_ = ends[0];
     try {
         pid_ = startProgram({binary.string(), "__instance", std::to_string(childEnd)}, ends[1],
-                            memoryLimitMiB, childEnd);
+                            memoryLimitMiB, {childEnd});
     } catch (...) {
         close(childEnd);
         close(ends[0]);

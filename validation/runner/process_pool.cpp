@@ -95,9 +95,19 @@ void ProcessPool::start(ProcessTask task) {
     if (pipe2(ends, O_CLOEXEC) != 0) throw results::EnvironmentError("pipe: " + results::errorText(errno));
     fcntl(ends[0], F_SETFL, O_NONBLOCK);
     pid_t pid = -1;
+    std::optional<KeptGuests::Loan> loan;
+    if (guests_ && !task.guest.empty()) loan = guests_->lend(task.guest);
     try {
-        pid = startProgram(task.arguments, ends[1], task.limits.memoryMiB);
+        if (loan) {
+            const adapter::GuestProcess& guest = loan->guest.process;
+            pid = startProgram(task.arguments, ends[1], task.limits.memoryMiB,
+                               {guest.input, guest.output, guest.log},
+                               adapter::lentGuestVariable(loan->name, loan->guest));
+        } else {
+            pid = startProgram(task.arguments, ends[1], task.limits.memoryMiB);
+        }
     } catch (...) {
+        if (loan) guests_->takeBack(*std::move(loan), false);
         close(ends[0]);
         close(ends[1]);
         throw;
@@ -114,6 +124,14 @@ void ProcessPool::start(ProcessTask task) {
     child.started = now;
     child.deadline = now + std::chrono::duration_cast<Clock::duration>(limit);
     child.workedAt = child.deadline;
+    child.result.hadLentGuest = loan.has_value();
+    child.loan = std::move(loan);
+}
+
+void ProcessPool::returnGuest(Running& child, bool isClean) {
+    if (!child.loan) return;
+    child.result.cpuSeconds += guests_->takeBack(*std::move(child.loan), isClean);
+    child.loan.reset();
 }
 
 void ProcessPool::waitForEvents() {
@@ -136,7 +154,9 @@ void ProcessPool::waitForEvents() {
 bool ProcessPool::isOverTime(Running& child) {
     const auto now = Clock::now();
     if (now < child.deadline) return false;
-    const double limit = child.task.limits.seconds * timeLimitFactor(), cpu = processorTimeOf(child.pid);
+    const double limit = child.task.limits.seconds * timeLimitFactor();
+    double cpu = processorTimeOf(child.pid);
+    if (cpu >= 0.0 && child.loan) cpu += KeptGuests::used(*child.loan);
     if (cpu < 0.0 || cpu >= limit) return true;
     if (now - child.started >= std::chrono::duration<double>(kMostWaiting * limit)) return true;
     if (cpu > child.cpuSeen + 1e-3) {
@@ -173,6 +193,7 @@ bool ProcessPool::collect(Running& child) {
     result.wallSeconds = std::chrono::duration<double>(Clock::now() - child.started).count();
     result.cpuSeconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     result.peakMemoryKiB = usage.ru_maxrss;
+    returnGuest(child, !result.timedOut && result.exitedWith(0));
     return true;
 }
 
@@ -185,6 +206,7 @@ void ProcessPool::killAll() {
         }
         killDescendants(child.pid);
         if (child.output >= 0) close(child.output);
+        returnGuest(child, false);
     }
     running_.clear();
 }

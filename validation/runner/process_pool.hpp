@@ -16,8 +16,12 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "validation/runner/kept_guests.hpp"
 
 namespace rigor::validation {
 
@@ -41,6 +45,7 @@ struct ProcessResult {
     std::int64_t peakMemoryKiB = 0;
     /// Not empty if every attempt was killed from outside: then nothing is known of the work.
     std::string disturbance;
+    bool hadLentGuest = false;  ///< its engine was a guest that had served others before, or may
 
     bool exitedWith(int code) const;
     /// "SIGSEGV (Segmentation fault)", "exit code 3".
@@ -56,6 +61,8 @@ struct ProcessTask {
     bool mayBeDisturbed = false;
     int starts = 0;       ///< number of times that it was started
     int outOfMemory = 0;  ///< number of these that ended while the system killed a process for want of memory
+    std::string
+        guest{};  ///< engine that it uses, which is lent to it if it is a guest that is kept; "": none
 };
 
 class ProcessPool {
@@ -64,6 +71,9 @@ class ProcessPool {
     ~ProcessPool();
     ProcessPool(const ProcessPool&) = delete;
     ProcessPool& operator=(const ProcessPool&) = delete;
+
+    /// Keeps guests for the tasks that name one. `memoryMiB`: limit of a guest's memory; 0: none.
+    void keepGuests(std::size_t memoryMiB) { guests_ = std::make_unique<KeptGuests>(memoryMiB); }
 
     void add(ProcessTask task) { waiting_.push_back(std::move(task)); }
     /// Adds a task before all waiting ones.
@@ -85,11 +95,13 @@ class ProcessPool {
         Clock::time_point workedAt;    ///< time at which that had grown
         std::int64_t memoryKills = 0;  ///< number of kills by the system before its start
         ProcessResult result;
+        std::optional<KeptGuests::Loan> loan;
     };
     void start(ProcessTask task);
     void waitForEvents();
     bool collect(Running& child);
     static bool isOverTime(Running& child);
+    void returnGuest(Running& child, bool isClean);
     void settle(Running ended);
     void runAll(const std::atomic<bool>& interrupted, const std::function<void(const std::string&)>& onStart);
     void killAll();
@@ -97,6 +109,7 @@ class ProcessPool {
     int slots_;
     std::deque<ProcessTask> waiting_;
     std::deque<Running> running_;
+    std::unique_ptr<KeptGuests> guests_;
 };
 
 /// Factor on time limits: sanitizer builds are that much slower.

@@ -104,7 +104,9 @@ class RunInProgress {
           onProgress_(onProgress),
           directory_(fs::absolute(options.directory)),
           writer_(directory_, options.resume),
-          pool_(options.jobs) {}
+          pool_(options.jobs) {
+        pool_.keepGuests(options.memoryLimitMiB);
+    }
 
     results::Run run(const std::atomic<bool>& interrupted) {
         prepare();
@@ -276,11 +278,27 @@ class RunInProgress {
         requested["trajectory"] = (directory_ / trajectoryName(c.id)).string();
         requested["pieces"] = options_.pieces;
         writeJsonFile(request, requested);
-        return {{options_.binary.string(), "__case", request.string()},
-                {c.scenario.timeLimit * runsOfCase(), options_.memoryLimitMiB},
-                c.scenario.name + ", " + c.spec.text(),
-                [this, index](const ProcessResult& result) { ended(index, result); },
-                true};
+        ProcessTask task{{options_.binary.string(), "__case", request.string()},
+                         {c.scenario.timeLimit * runsOfCase(), options_.memoryLimitMiB},
+                         c.scenario.name + ", " + c.spec.text(),
+                         [this, index](const ProcessResult& result) { ended(index, result); },
+                         true};
+        task.guest = c.spec.engine;
+        return task;
+    }
+
+    /// A case that a kept guest did not bring to its end is run once more with one of its own: neither its
+    /// earlier cases nor the run that keeps it can be the reason then.
+    bool repeatedWithOwnGuest(std::size_t index, const ProcessResult& result, const CaseRow& row) {
+        if (!result.hadLentGuest || row.outcome == Outcome::Completed || row.outcome == Outcome::Unsupported)
+            return false;
+        const auto known = brokenReferences_.find(index);
+        ProcessTask task =
+            taskOf(index, known == brokenReferences_.end() ? references_.at(plan_[index].scenario.name)
+                                                           : known->second);
+        task.guest.clear();
+        pool_.addNext(std::move(task));
+        return true;
     }
 
     static std::string orderName(const CasePlan& c, int number) {
@@ -358,6 +376,7 @@ class RunInProgress {
         CaseRow row = rowOf(index, c.id, result);
         row.command = reproduceCommand(c, options_.directory, fromLibrary_[c.scenario.name]);
         removePart(directory_ / trajectoryName(c.id));
+        if (repeatedWithOwnGuest(index, result, row)) return;
         if (options_.orders < 2 || !isRunInOrders(row)) return store(index, row);
         const int others = otherOrders(c.scenario, options_.orders);
         if (others == 0) {

@@ -32,12 +32,14 @@ constexpr bool kSanitized = false;
 /// The environment of a child, with room for its process id, which is known only after the fork.
 class ChildEnvironment {
   public:
-    ChildEnvironment() : mark_(std::string(kAncestorVariable) + "=" + ancestorMark(getpid(), 0)) {
+    explicit ChildEnvironment(const std::string& variable)
+        : variable_(variable), mark_(std::string(kAncestorVariable) + "=" + ancestorMark(getpid(), 0)) {
         digits_ = mark_.size() - 1;
         mark_.append(kMostDigits, '\0');
         const std::string name = std::string(kAncestorVariable) + "=";
         for (char** entry = environ; *entry != nullptr; ++entry)
             if (!std::string_view(*entry).starts_with(name)) entries_.push_back(*entry);
+        if (!variable_.empty()) entries_.push_back(variable_.data());
         entries_.push_back(mark_.data());
         entries_.push_back(nullptr);
     }
@@ -52,14 +54,14 @@ class ChildEnvironment {
 
   private:
     static constexpr int kMostDigits = 20;
-    std::string mark_;
+    std::string variable_, mark_;
     std::size_t digits_ = 0;
     std::vector<char*> entries_;
 };
 
 /// Runs between fork and exec, with calls only that are safe there.
 [[noreturn]] void becomeProgram(char* const* argv, ChildEnvironment& environment, int output, pid_t parent,
-                                std::size_t memoryMiB, int keepOpen) {
+                                std::size_t memoryMiB, const std::vector<int>& keepOpen) {
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(kExitEnvironment);  // it died before prctl took effect
@@ -76,7 +78,7 @@ class ChildEnvironment {
     if (null >= 0) dup2(null, STDIN_FILENO);
     dup2(output, STDOUT_FILENO);
     dup2(output, STDERR_FILENO);
-    if (keepOpen >= 0) fcntl(keepOpen, F_SETFD, 0);
+    for (const int file : keepOpen) fcntl(file, F_SETFD, 0);
     execve(argv[0], argv, environment.of(getpid()));
     const int code = errno;
     const char* const message[] = {kEnvironmentMark, argv[0], ": cannot be run: ", strerrordesc_np(code),
@@ -93,12 +95,12 @@ bool isSanitized() {
 }
 
 pid_t startProgram(const std::vector<std::string>& arguments, int output, std::size_t memoryMiB,
-                   int keepOpen) {
+                   const std::vector<int>& keepOpen, const std::string& variable) {
     std::vector<char*> argv;
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     const pid_t self = getpid();
-    ChildEnvironment environment;
+    ChildEnvironment environment(variable);
     const std::size_t memory = kSanitized ? 0 : memoryMiB;
     const pid_t pid = fork();
     if (pid == 0) becomeProgram(argv.data(), environment, output, self, memory, keepOpen);

@@ -18,10 +18,11 @@ inline constexpr std::size_t kOutputTailBytes = 4096;
 bool isSanitized();  ///< this build: slower, and it reserves terabytes of addresses
 
 /// Runs `arguments` (the first is the program's file) with stdout and stderr going to `output`. `memoryMiB`:
-/// limit of its address space, 0: none; not set in sanitizer builds. `keepOpen`: a file it gets under the
-/// same number, or -1. The child dies with the thread that calls this. Throws results::EnvironmentError.
+/// limit of its address space, 0: none; not set in sanitizer builds. `keepOpen`: files that it gets under the
+/// same numbers. `variable`: an entry for its environment ("NAME=value"), or "". The child dies with the thread
+/// that calls this. Throws results::EnvironmentError.
 pid_t startProgram(const std::vector<std::string>& arguments, int output, std::size_t memoryMiB,
-                   int keepOpen = -1);
+                   const std::vector<int>& keepOpen = {}, const std::string& variable = "");
 
 /// Appends what is there to read of a child's output, of which the last few KiB are kept; false at its end.
 bool drainOutput(int file, std::string& tail);

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The Rigor authors
 """A guest with one fault: faulty_guest.py SDK_FOLDER FAULT [NAME]. Its one body does not move; its answers are right but for
-the fault, which is in the answer to `hello` or, from the third one on, to `step`."""
+the fault, which is in the answer to `hello` or, from the third one on, to `step`. The guest `tired` ends in its second
+world. Every start adds a line to the file RIGOR_GUEST_STARTS, where this variable names one."""
 import math
 import os
 import signal
@@ -13,6 +14,10 @@ sys.path.insert(0, sys.argv[1])
 import rigor_guest as rg
 
 FAULT = sys.argv[2]
+worlds = 0
+if os.environ.get("RIGOR_GUEST_STARTS"):
+    with open(os.environ["RIGOR_GUEST_STARTS"], "a") as starts:
+        starts.write("%d\n" % os.getpid())
 
 
 class StillWorld(rg.World):
@@ -26,6 +31,8 @@ class StillWorld(rg.World):
 
     def step(self):
         self.steps += 1
+        if FAULT == "tired" and worlds > 1:
+            os._exit(3)
 
     def states(self):
         moved = math.nan if FAULT == "nan" and self.steps >= 3 else 0.0
@@ -72,6 +79,8 @@ class Faulty(rg.Guest):
             raise rg.BadInput("mass of 2")
         if FAULT == "raise":
             raise ValueError("there is no such thing")
+        global worlds
+        worlds += 1
         return StillWorld(scenario)
 
 

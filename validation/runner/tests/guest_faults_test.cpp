@@ -49,15 +49,30 @@ class GuestFaults : public fixtures::RunnerTest {
         fs::create_symlink(fixtures::buildFolder() / "bin/adapters" / host, folder_ / host);
         setenv("RIGOR_ADAPTER_PATH", folder_.c_str(), 1);
     }
-    std::string add(const std::string& fault) const {
+    std::string add(const std::string& fault, bool keepAlive = false) const {
         const std::string name = "faulty_" + fault,
                           guests = std::string(RIGOR_SOURCE_DIR) + "/adapters/guest/";
         std::ofstream(folder_ / ("rigor_adapter_" + name + ".json"))
             << R"({"rigor_guest": 1, "protocol": 1, "precision": "f64", "reply_seconds": )"
-            << (fault == "memory" ? 60 : 1) << R"(, "memory": "resident", "name": ")" << name
-            << R"(", "command": ["python3", ")" << guests << R"(tests/faulty_guest.py", ")" << guests
-            << R"(sdk", ")" << fault << R"(", ")" << name << R"("]})";
+            << (fault == "memory" ? 60 : 1) << (keepAlive ? R"(, "keep_alive": true)" : "")
+            << R"(, "memory": "resident", "name": ")" << name << R"(", "command": ["python3", ")" << guests
+            << R"(tests/faulty_guest.py", ")" << guests << R"(sdk", ")" << fault << R"(", ")" << name
+            << R"("]})";
         return name;
+    }
+    /// Runs three scenarios, one after the other, and returns how often the guest was started for a case.
+    std::size_t startsOf(const std::string& fault, bool keepAlive, results::Run& done) const {
+        const auto file = scratch_.path() / ("starts-" + fault + (keepAlive ? "-kept" : ""));
+        setenv("RIGOR_GUEST_STARTS", file.c_str(), 1);
+        const std::string spec = add(fault, keepAlive) + ":preset=matched";
+        const std::vector<std::string> scenes = {fixtures::thrownBall("one"), fixtures::thrownBall("two"),
+                                                 fixtures::thrownBall("three")};
+        done = run(fixtures::plan(scenes, spec), options(file.filename().string() + "-run"));
+        unsetenv("RIGOR_GUEST_STARTS");
+        std::ifstream starts(file);
+        std::size_t lines = 0;
+        for (std::string line; std::getline(starts, line);) ++lines;
+        return lines - 1;  // one start is for the description of the engine
     }
     std::filesystem::path folder_;
 };
@@ -87,6 +102,37 @@ TEST_F(GuestFaults, AreOneRowEach) {
             EXPECT_EQ(results::isRed(row), fault.outcome != Outcome::Unsupported);
         }
     }
+}
+
+TEST_F(GuestFaults, AKeptGuestServesAllCases) {
+    results::Run alone, kept;
+    EXPECT_EQ(startsOf("none", false, alone), 3u);
+    EXPECT_EQ(startsOf("none", true, kept), 1u);
+    ASSERT_EQ(kept.cases.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(kept.cases[i].outcome, Outcome::Completed) << kept.cases[i].reason;
+        EXPECT_EQ(kept.cases[i].stateHash, alone.cases[i].stateHash);
+        EXPECT_GT(kept.cases[i].cpuSeconds, 0.0);
+    }
+}
+
+/// A guest that ends in its second world: the second case is run again with a guest of its own, the third has a new one.
+TEST_F(GuestFaults, ACaseThatAKeptGuestEndsIsRunAgain) {
+    results::Run done;
+    EXPECT_EQ(startsOf("tired", true, done), 3u);
+    ASSERT_EQ(done.cases.size(), 3u);
+    for (const CaseRow& row : done.cases) EXPECT_EQ(row.outcome, Outcome::Completed) << row.reason;
+}
+
+/// A guest that ends every time is still one row, with the reason of a guest that served no other case.
+TEST_F(GuestFaults, AFaultOfAKeptGuestIsReportedLikeThatOfAnother) {
+    const std::string name = add("exit", true);
+    auto o = options();
+    const auto done = run(fixtures::plan({fixtures::thrownBall("guests")}, name + ":preset=matched"), o);
+    ASSERT_EQ(done.cases.size(), 1u);
+    EXPECT_EQ(done.cases[0].outcome, Outcome::Crashed);
+    EXPECT_THAT(done.cases[0].reason, HasSubstr("exit code 3"));
+    EXPECT_THAT(done.cases[0].reason, HasSubstr("the guest gives up"));
 }
 
 }  // namespace
