@@ -85,7 +85,6 @@ constexpr Deviation kDeviations[] = {
      "native convex collision misses balls on the axis of a cubic mesh"},
     {"mujoco3", "", "", 0, "hull_ball_depth_distance", 0.51,
      "native convex collision misses balls on the axis of a cubic mesh"},
-    {"mujoco3", "", "default", 3, "collision_momentum", 1e-5, "the solver stops at its tolerance"},
     {"mujoco3", "", "matched", 0, "pair_restitution", 0.05, "bounces are springs of ten time steps"},
     {"mujoco3", "", "default", 0, "hinge_limit_beyond", 0.015, "limits are soft: 0.02 s"},
     {"mujoco3", "", "default", 0, "six_dof_limit", 0.015, "limits are soft: 0.02 s"},
