@@ -22,7 +22,8 @@ struct HistoryReplays {
         std::string name;            ///< its name beside the page of the history
     };
     std::vector<File> files;
-    std::map<std::tuple<std::size_t, std::string, double>, std::string> names;  ///< names of replays by run, scenario, dt
+    std::map<std::tuple<std::size_t, std::string, double>, std::string>
+        names;                                  ///< names of replays by run, scenario, dt
     std::map<std::string, std::string> scenes;  ///< names of the data files of scenarios
     std::map<std::string, std::string> texts;   ///< the scenario files, by the names of their data files
 };
