@@ -40,7 +40,7 @@ TEST_F(CompareCommand, TheSameRunTwiceIsTheSame) {
     const json out =
         json::parse(rigor("compare --json " + path("a") + " " + path("b") + "," + path("a"), false).out);
     EXPECT_FALSE(out.at("worse"));
-    EXPECT_EQ(out.at("specs").size(), 3u);  // default, matched, fast
+    EXPECT_EQ(out.at("specs").size(), 4u);  // default, matched, accurate, fast
     EXPECT_GT(out.at("specs")[0].at("same"), 5);
 }
 
@@ -112,7 +112,7 @@ TEST_F(CompareCommand, NothingInCommonIsAnErrorAndPairsAreCompared) {
     EXPECT_NE(engines.out.find("rigor:preset=default -> ode:preset=default"), std::string::npos)
         << engines.out;
     const json presets = json::parse(rigor("compare --json --pair spec " + path("a"), false).out);
-    ASSERT_EQ(presets.at("specs").size(), 3u) << "of default, fast and matched every two";
+    ASSERT_EQ(presets.at("specs").size(), 6u) << "of default, matched, accurate and fast every two";
     EXPECT_EQ(presets.at("specs")[0].at("cases"), 2);
     EXPECT_EQ(rigor("compare --pair dt " + path("a")).code, 2) << "one step alone";
     EXPECT_EQ(rigor("compare --pair colour " + path("a")).code, 2);

@@ -123,7 +123,10 @@ TEST_F(Sessions, EnginesThatFailLeaveTheOthersAlone) {
     EXPECT_THROW(send({{"command", "restart"}, {"instance", 3}}), CommandError) << "it runs";
     send({{"command", "pause"}});
     send({{"command", "restart"}, {"instance", viewer_->instance(0)["id"]}});
-    EXPECT_TRUE(viewer_->until([&] { return viewer_->instance(0)["state"] != "loading"; }));
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->instance(0)["state"] != "crashed"; }))
+        << "it begins anew";
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->instance(0)["state"] == "crashed"; }))
+        << "it comes to the step at which it aborts";
     EXPECT_EQ(viewer_->instance(2)["state"], "non_finite") << "the others are left alone";
     send({{"command", "reset"}});
     EXPECT_TRUE(viewer_->until([&] {

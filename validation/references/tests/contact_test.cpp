@@ -460,7 +460,7 @@ TEST(ClearWay, WhatStandsInThePathBreaksTheAssumptionsWhatStandsBesideItDoesNot)
 
 TEST(Table, SortedNamedAndComplete) {
     const auto& table = referenceTable();
-    EXPECT_EQ(table.size(), 55U);
+    EXPECT_EQ(table.size(), 56U);
     for (std::size_t i = 1; i < table.size(); ++i) EXPECT_LT(std::string(table[i - 1].name), table[i].name);
     for (const auto& entry : table) EXPECT_EQ(findReference(entry.name), &entry);
     Scenario s = emptyScene(3, {}, 1);
