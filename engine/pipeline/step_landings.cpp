@@ -16,6 +16,24 @@
 #include "engine/pipeline/step.hpp"
 
 namespace rigor::engine {
+namespace {
+
+constexpr std::uint8_t kMayLand = 1, kLands = 2;  // values of StepState::mayLand
+
+template <class S>
+Landing<S>* findLanding(std::vector<Landing<S>>& landings, std::uint32_t body) {
+    const auto found = std::find_if(landings.begin(), landings.end(),
+                                    [&](const Landing<S>& landing) { return landing.body == body; });
+    return found == landings.end() ? nullptr : &*found;
+}
+
+/// The body of a block that impulses move: the other one does not move with those that may land.
+template <class S>
+std::uint32_t movedBody(const BodyArrays<S>& bodies, const Block<S>& block) {
+    return bodies.invMass[block.a] > 0 ? block.a : block.b;
+}
+
+}  // namespace
 
 template <class S>
 void Step<S>::findLandingBodies() {
@@ -23,7 +41,8 @@ void Step<S>::findLandingBodies() {
     may.assign(bodies_.size(), 0);
     state_.landings.clear();
     if (!algorithms_.locatesImpacts || !rowsLag()) return;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) may[i] = state_.bound[i] && bodies_.invMass[i] > 0;
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+        may[i] = state_.bound[i] && bodies_.invMass[i] > 0 ? kMayLand : 0;
     for (const auto& record : joints_.records()) may[record.joint.a] = may[record.joint.b] = 0;
     for (const auto& record : world_.forces.records()) may[record.place.a] = may[record.place.b] = 0;
     for (const Contact<S>& contact : contacts_.list())
@@ -40,23 +59,19 @@ void Step<S>::beginLandings() {
     landings.clear();
     state_.held.clear();
     for (const LandingPoint<Real>& point : contactModel_.landings()) {
-        const Block<S>& block = rows_.blocks[point.block];
-        const std::uint32_t body = bodies_.invMass[block.a] > 0 ? block.a : block.b;
-        const auto same = [&](const Landing<S>& landing) { return landing.body == body; };
-        auto found = std::find_if(landings.begin(), landings.end(), same);
-        if (found == landings.end()) found = landings.insert(found, {body, Real(0), Real(0), {}});
+        const std::uint32_t body = movedBody<S>(bodies_, rows_.blocks[point.block]);
+        Landing<S>* found = findLanding<S>(landings, body);
+        if (found == nullptr) found = &landings.emplace_back(Landing<S>{body, Real(0), Real(0), {}});
         found->time += point.time;
         found->points += 1;
-        state_.mayLand[body] = 2;
+        state_.mayLand[body] = kLands;
     }
     for (Landing<S>& landing : landings) landing.time /= landing.points;
     if (landings.empty()) return;
     for (const Block<S>& block : rows_.blocks) {
-        if (block.kind != BlockKind::Contact) continue;
-        const std::uint32_t body = bodies_.invMass[block.a] > 0 ? block.a : block.b;
-        if (state_.mayLand[body] != 2) continue;
-        const auto same = [&](const Landing<S>& landing) { return landing.body == body; };
-        const Real time = std::find_if(landings.begin(), landings.end(), same)->time;
+        const std::uint32_t body = movedBody<S>(bodies_, block);
+        if (block.kind != BlockKind::Contact || state_.mayLand[body] != kLands) continue;
+        const Real time = findLanding<S>(landings, body)->time;
         for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
             const Real held = (Real(0.5) + time) * rows_.rows[i].impulse;
             if (held == 0) continue;
@@ -91,6 +106,7 @@ void Step<S>::shortenLandings() {
         motion_.replaceUsed(landing.body, {typename S::Vec(used.v + share * landing.change.v),
                                            Ang(used.w + share * landing.change.w)});
     }
+    state_.landings.clear();
 }
 
 #define RIGOR_INSTANTIATE(S)                    \

@@ -179,21 +179,22 @@ void JointSystem<S>::eliminate(const Part& part) {
         for (std::size_t i = 0; i < size; ++i)
             x[k * pad + i] = shiftPivot(diagonal[(k * size + i) * pad + i]);
     factorPart(kernelPart(part), x);
-    // A chain or a tree that hangs on one fixed body has fewer couplings than items, and no redundant rows. A pivot of which
-    // the shift is a large part belongs to a row that others make redundant. The diagonal has the reciprocals of the pivots'
-    // roots now, x half their shifts.
-    if (part.lastCoupling - part.coupling < part.last - part.first && part.fixed <= 1) return;
-    Real most = 0, least = 1;
-    for (std::size_t k = 0; k < part.last - part.first; ++k)
-        for (std::size_t i = 0; i < size; ++i) {
+    // A chain or a tree that hangs on one fixed body has fewer couplings than items, and no redundant rows. In large parts, as
+    // flat nets, the directions that K hardly sees matter, of which each solve without the excess gains less.
+    const std::size_t items = part.last - part.first;
+    const bool isTree = part.lastCoupling - part.coupling < items && part.fixed <= 1;
+    if (isTree || items > kMechanism) return;
+    // A pivot of which the shift is a large part belongs to a row that others make redundant. The diagonal has the
+    // reciprocals of the pivots' roots now, x half their shifts.
+    bool redundant = false;
+    for (std::size_t k = 0; k < items; ++k)
+        for (std::size_t i = 0; i < rows_[part.first + k]; ++i) {
             const Real inverse = diagonal[(k * size + i) * pad + i];
-            most = std::max(most, x[k * pad + i] * inverse * inverse);
-            least = std::min(least, inverse);
+            redundant = redundant || !(Real(2) * kMostShift * x[k * pad + i] * inverse * inverse < 1) ||
+                        !(inverse > 0);
         }
-    const bool redundant = Real(2) * kMostShift * most > 1 || !(least > 0);
     redundant_[static_cast<std::size_t>(&part - parts_.data())] = redundant;
-    for (std::size_t i = 0; redundant && i < (part.last - part.first) * pad; ++i)
-        shift_[part.x + i] = Real(2) * x[i];
+    for (std::size_t i = 0; redundant && i < items * pad; ++i) shift_[part.x + i] = Real(2) * x[i];
 }
 
 template <class S>
