@@ -28,7 +28,6 @@ typename S::Real landingTime(const BodyArrays<S>& bodies, const ContactStep<S>& 
 
 }  // namespace
 
-/// Places the points of a contact, and finds what the rows of those that it had in the last step lag by.
 template <class S>
 void placeWithLags(const BodyArrays<S>& bodies, Contact<S>& contact, RowLags<S>& lags) {
     const auto last = contact.points;
@@ -38,13 +37,12 @@ void placeWithLags(const BodyArrays<S>& bodies, Contact<S>& contact, RowLags<S>&
                             frameOf<S>(contact.points[i], contact.manifold.normal), bodies, contact);
 }
 
-/// Adds to the rows of a point what they lag by. A point that lands within the step has the law of impact.
 template <class S>
 void addLag(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
-            std::size_t index, const RowLag<S>& lag, const Block<S>& block, Row<S>* rows) {
+            std::size_t index, RowLag<S>& lag, const Block<S>& block, Row<S>* rows) {
     rows[0].error += step.h * lag.normal;
-    if (landingTime<S>(bodies, step, contact, contact.points[index], lag) > 0)
-        rows[0].bias = rows[0].relaxedBias = 0;
+    lag.landing = landingTime<S>(bodies, step, contact, contact.points[index], lag);
+    if (lag.landing > 0) rows[0].bias = rows[0].relaxedBias = 0;
     const auto add = [](Row<S>& row, typename S::Real bias) {
         row.bias += bias;
         row.relaxedBias += bias;
@@ -54,27 +52,18 @@ void addLag(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Conta
 }
 
 template <class S>
-void RowContacts<S>::findLandings(const ContactList<S>& contacts, const BodyArrays<S>& bodies,
-                                  const ContactStep<S>& step) {
+void RowContacts<S>::findLandings(const ContactList<S>& contacts) {
     landings_.clear();
-    if (step.mayLand.empty() || lags_.empty()) return;
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
-        const Contact<S>& contact = contacts[k];
-        if (contact.islands != islands_ || contact.blocks == 0) continue;
-        for (std::size_t i = 0; i < contact.block.size(); ++i) {
-            if (contact.block[i] == kNullIndex) continue;
-            const Real time = landingTime<S>(bodies, step, contact, contact.points[i], lags_[k][i]);
-            if (time > 0) landings_.push_back({contact.block[i], time});
-        }
-    }
+    for (std::size_t k = 0; k < lags_.size(); ++k)
+        for (std::size_t i = 0; i < lags_[k].size(); ++i)
+            if (lags_[k][i].landing > 0) landings_.push_back({contacts[k].block[i], lags_[k][i].landing});
 }
 
 #define RIGOR_INSTANTIATE(S)                                                                             \
     template void placeWithLags<S>(const BodyArrays<S>&, Contact<S>&, RowLags<S>&);                      \
     template void addLag<S>(const BodyArrays<S>&, const ContactStep<S>&, const Contact<S>&, std::size_t, \
-                            const RowLag<S>&, const Block<S>&, Row<S>*);                                 \
-    template void RowContacts<S>::findLandings(const ContactList<S>&, const BodyArrays<S>&,              \
-                                               const ContactStep<S>&);
+                            RowLag<S>&, const Block<S>&, Row<S>*);                                       \
+    template void RowContacts<S>::findLandings(const ContactList<S>&);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 

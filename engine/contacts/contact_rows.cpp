@@ -272,7 +272,7 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
         }
     });
     findSlips(contacts, bodies, step, rows);
-    findLandings(contacts, bodies, step);
+    findLandings(contacts);
 }
 
 template <class S>

@@ -40,8 +40,7 @@ class RowContacts final : public ContactModel<S> {
     void findSlips(const ContactList<S>& contacts, const BodyArrays<S>& bodies, const ContactStep<S>& step,
                    const ConstraintRows<S>& rows);
 
-    void findLandings(const ContactList<S>& contacts, const BodyArrays<S>& bodies,
-                      const ContactStep<S>& step);
+    void findLandings(const ContactList<S>& contacts);
 
     ContactCounts counts_;
     IslandSize islands_ = IslandSize::Usual;
@@ -66,10 +65,10 @@ inline constexpr R kTouching = R(64) * std::numeric_limits<R>::epsilon();
 /// Places the points of a contact, and finds what the rows of those that it had in the last step lag by.
 template <class S>
 void placeWithLags(const BodyArrays<S>& bodies, Contact<S>& contact, RowLags<S>& lags);
-/// Adds to the rows of a point what they lag by. A point that lands within the step has the law of impact.
+/// Adds to the rows of a point what they lag by. A point that lands within the step has the law of impact; `lag` gets when.
 template <class S>
 void addLag(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
-            std::size_t index, const RowLag<S>& lag, const Block<S>& block, Row<S>* rows);
+            std::size_t index, RowLag<S>& lag, const Block<S>& block, Row<S>* rows);
 
 /// Unit tangents that with n form a right-handed orthonormal frame; a function of n alone.
 template <class S>

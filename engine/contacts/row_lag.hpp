@@ -19,8 +19,10 @@ namespace rigor::engine {
 template <class S>
 struct RowLag {
     typename S::Real normal = 0;  ///< the normal row's [m/s]
-    typename S::Vec slip =
-        S::Vec::Zero();  ///< its components along the tangents are those of their rows [m/s]
+    /// Its components along the tangents are those of their rows [m/s].
+    typename S::Vec slip = S::Vec::Zero();
+    typename S::Real landing =
+        0;  ///< fraction of the step at which the point lands within it; 0: it does not
 };
 template <class S>
 using RowLags = std::array<RowLag<S>, S::maxManifoldPoints>;
