@@ -16,6 +16,14 @@
 namespace rigor::adapter {
 namespace {
 
+/// Number of settings in which a preset differs from the matched one.
+int changesToMatched(const Settings& preset, const Engine& engine) {
+    int changed = 0;
+    for (const auto& [key, value] : resolveSettings(parseSpec("rigor:preset=matched"), engine))
+        if (key != "preset" && value != preset.at(key)) ++changed;
+    return changed;
+}
+
 TEST(FastPreset, IsTheMatchedOneWithWhatPreferSpeedSets) {
     engine::WorldDef<engine::Space3d> wanted;
     engine::preferSpeed(wanted);
@@ -30,12 +38,7 @@ TEST(FastPreset, IsTheMatchedOneWithWhatPreferSpeedSets) {
     EXPECT_EQ(numberSetting(fast, "box_margin"), wanted.boxMargin);
     EXPECT_EQ(numberSetting(fast, "speculative_distance"), wanted.speculativeDistance);
     EXPECT_EQ(textSetting(fast, "curved_joints") == "on", wanted.relinearizedJoints);
-
-    Settings others = resolveSettings(parseSpec("rigor:preset=matched"), *engine);
-    int changed = 0;
-    for (auto& [key, value] : others)
-        if (key != "preset" && value != fast.at(key)) ++changed;
-    EXPECT_EQ(changed, 9) << "no more than the nine compared above";
+    EXPECT_EQ(changesToMatched(fast, *engine), 9) << "no more than the nine compared above";
 }
 
 TEST(AccuratePreset, IsTheMatchedOneWithWhatPreferAccuracySets) {
@@ -47,12 +50,7 @@ TEST(AccuratePreset, IsTheMatchedOneWithWhatPreferAccuracySets) {
     EXPECT_EQ(textSetting(accurate, "solver"), wanted.solver);
     EXPECT_EQ(integerSetting(accurate, "velocity_iterations"), wanted.velocityIterations);
     EXPECT_EQ(numberSetting(accurate, "velocity_tolerance"), wanted.velocityTolerance);
-
-    Settings others = resolveSettings(parseSpec("rigor:preset=matched"), *engine);
-    int changed = 0;
-    for (auto& [key, value] : others)
-        if (key != "preset" && value != accurate.at(key)) ++changed;
-    EXPECT_EQ(changed, 4) << "no more than the four compared above";
+    EXPECT_EQ(changesToMatched(accurate, *engine), 4) << "no more than the four compared above";
 }
 
 TEST(EnginePresets, AreNamedInTheReadme) {
