@@ -210,7 +210,7 @@ int runHere(const RunArguments& a) {
     if (!a.log.empty())
         options.onWorld = [&](const adapter::World& world) {
             reports = {[&](int body) { return world.isAsleep(body); },
-                       [&](int joint) { return world.jointHolds(joint); }};
+                       [&](int joint) { return world.jointHolds(joint); }, world.contactInstant()};
         };
     options.onStep = [&](double time, std::span<const validation::BodyState> states,
                          const std::vector<validation::ContactPoint>& contacts) {

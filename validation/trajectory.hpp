@@ -23,9 +23,10 @@ struct Trajectory {
     std::size_t bodyCount = 0;
     std::vector<double> times;      ///< [s], one per frame
     std::vector<BodyState> states;  ///< frame-major: states[frame * bodyCount + body]
-    std::vector<std::vector<ContactPoint>>
-        contacts;  ///< contacts of the step that begins at each frame, at the frame's poses; last frame:
-                   ///< empty
+    /// Contacts of the step that begins (StepStart) or ends (StepEnd) at each frame, at the frame's poses; the last
+    /// frame begins no step, the first one ends none.
+    std::vector<std::vector<ContactPoint>> contacts;
+    adapter::ContactInstant contactInstant = adapter::ContactInstant::StepStart;
 
     std::size_t frames() const { return times.size(); }
     const BodyState& state(std::size_t frame, int body) const { return states[frame * bodyCount + body]; }

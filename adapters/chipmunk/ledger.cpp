@@ -26,8 +26,6 @@ std::vector<LedgerEntry> ChipmunkWorld::ledger() const {
     add("integrator", "symplectic_euler", adapter::schemeName(scheme()), when(!positionsLast_),
         positionsLast_ ? "" : "cpSpaceStep moves bodies before it changes their velocities");
     add("time_step", shown(dt_), shown(dt_) + ", one step per call");
-    add("contact_instant", "start of the step", positionsLast_ ? "start of the step" : "end of the step",
-        when(!positionsLast_), positionsLast_ ? "" : "contacts are found where the bodies have moved to");
     add("solver", "sequential impulses", std::to_string(cpSpaceGetIterations(space_.get())) + " iterations");
     add("warm_starting", "on", "on: contacts and joints, for as long as shapes overlap");
     add("friction_law", "coulomb, pair coefficient", "coulomb, pair coefficient");

@@ -31,6 +31,10 @@ class ChipmunkWorld final : public adapter::World, public adapter::StateSetting 
     void setStates(std::span<const adapter::BodyState> states) override;
     const char* warmStart() const override { return "kept"; }
     void readContacts(std::vector<adapter::ContactPoint>& contacts) const override;
+    /// cpSpaceStep moves the bodies first, and finds contacts where that has led them.
+    adapter::ContactInstant contactInstant() const override {
+        return positionsLast_ ? adapter::ContactInstant::StepStart : adapter::ContactInstant::StepEnd;
+    }
     adapter::ReadBack readBack() const override;
     std::vector<adapter::LedgerEntry> ledger() const override;
     adapter::StepCounters counters() const override;

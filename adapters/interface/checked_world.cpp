@@ -88,6 +88,7 @@ class CheckedWorld : public World {
         call("readContacts", [&] { world_->readContacts(contacts); });
         for (std::size_t i = 0; i < contacts.size(); ++i) checkContact(contacts[i], i);
     }
+    ContactInstant contactInstant() const override { return world_->contactInstant(); }
     ReadBack readBack() const override {
         ReadBack back = call("readBack", [&] { return world_->readBack(); });
         const std::size_t most = materials_ * materials_;

@@ -48,9 +48,11 @@ class World {
     /// States of all bodies by scenario index; `states.size()` is the number of bodies.
     virtual void readStates(std::span<BodyState> states) const = 0;
 
-    /// Contacts that the last step acted upon, placed at the poses at which it began: points lie on the
-    /// surfaces as they stood then, whatever the step has done with the bodies since. Replaces `contacts`.
+    /// Contacts that the last step acted upon, placed at the poses of contactInstant(): points lie on the surfaces as
+    /// they stood then, whatever the step has done with the bodies since. Replaces `contacts`.
     virtual void readContacts(std::vector<ContactPoint>& contacts) const = 0;
+    /// The same after every step of a world.
+    virtual ContactInstant contactInstant() const { return ContactInstant::StepStart; }
 
     virtual ReadBack readBack() const = 0;
 

@@ -29,6 +29,7 @@ class ReplayWorld final : public World, public Snapshots, public StateSetting {
 
     void readStates(std::span<BodyState> states) const override { world_->readStates(states); }
     void readContacts(std::vector<ContactPoint>& contacts) const override { world_->readContacts(contacts); }
+    ContactInstant contactInstant() const override { return world_->contactInstant(); }
     ReadBack readBack() const override { return world_->readBack(); }
     std::vector<LedgerEntry> ledger() const override { return world_->ledger(); }
     StepCounters counters() const override { return world_->counters(); }

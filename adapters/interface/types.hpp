@@ -44,6 +44,12 @@ struct ContactPoint {
     Vec3 frictionImpulse;        ///< [N s] on B, tangential
 };
 
+/// The poses that the contacts of a step lie at, and that its laws of contact are about.
+enum class ContactInstant {
+    StepStart,  ///< those at which the step began: contacts are found there
+    StepEnd  ///< those at its end: bodies move before contacts are found, or contacts of its middle are moved on
+};
+
 /// Degree to which a requested setting was realised.
 enum class Realisation { Exact, Approximate, Unsupported };
 const char* realisationName(Realisation r);

@@ -171,6 +171,11 @@ class RigorWorld final : public World, public StateSetting {
         }
     }
 
+    adapter::ContactInstant contactInstant() const override {
+        return world_.contactsAtStepEnd() ? adapter::ContactInstant::StepEnd
+                                          : adapter::ContactInstant::StepStart;
+    }
+
     ReadBack readBack() const override {
         ReadBack result;
         for (std::size_t i = 0; i < bodies_.size(); ++i) {

@@ -175,6 +175,7 @@ Reply RunSite::trajectory(const std::string& id, const Request& request) {
                                       {"stride", t->stride},
                                       {"contact_stride", t->contactStride},
                                       {"contact_instants", t->contactInstantsKnown},
+                                      {"contacts_at_step_end", t->contactsAtStepEnd},
                                       {"frames", frames},
                                       {"from", from},
                                       {"count", count},

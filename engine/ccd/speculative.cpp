@@ -164,7 +164,7 @@ class Speculative final : public ContinuousCollision<S> {
 }  // namespace
 
 ContinuousCollisionTraits makeSpeculativeTraits() {
-    return {.losesRest = true};
+    return {.givesContacts = true, .losesRest = true};
 }
 
 template <class S>

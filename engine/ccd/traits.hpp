@@ -12,7 +12,8 @@
 namespace rigor::engine {
 
 struct ContinuousCollisionTraits {
-    bool acts = true;        ///< fast bodies do not pass through thin ones
+    bool acts = true;            ///< fast bodies do not pass through thin ones
+    bool givesContacts = false;  ///< fast bodies get contacts that lie ahead of them, for one sub-step
     bool losesRest = false;  ///< the motion of a fast body in the rest of the step after an impact is lost
 };
 std::span<const TraitsEntry<ContinuousCollisionTraits>> continuousCollisionTraitsTable();

@@ -20,6 +20,7 @@
 
 #include "engine/constraints/soft.hpp"
 #include "engine/contacts/contact.hpp"
+#include "engine/contacts/row_lag.hpp"
 #include "engine/core/tasks.hpp"
 #include "engine/solvers/traits.hpp"
 
@@ -96,6 +97,12 @@ class ContactModel {
 
     /// The landings of the sub-step, in the order of contacts.
     virtual std::span<const LandingPoint<Real>> landings() const { return {}; }
+
+    /// What the rows of contact `index` of the list lag by (row_lag.hpp); none in steps whose rows are not those of a midpoint.
+    virtual const RowLags<S>* lagsOf(std::size_t index) const {
+        (void)index;
+        return nullptr;
+    }
 
     virtual ContactCounts counts() const = 0;
     /// Later sub-steps need the bodies' world inertia of the first.

@@ -34,6 +34,9 @@ class RowContacts final : public ContactModel<S> {
     void advance(ContactList<S>& contacts, std::span<const Velocity<S>> velocities, Real h,
                  const Tasks& tasks) override;
     std::span<const LandingPoint<Real>> landings() const override { return landings_; }
+    const RowLags<S>* lagsOf(std::size_t index) const override {
+        return index < lags_.size() ? &lags_[index] : nullptr;
+    }
     ContactCounts counts() const override { return counts_; }
 
   private:

@@ -23,6 +23,8 @@ struct RowLag {
     typename S::Vec slip = S::Vec::Zero();
     typename S::Real landing =
         0;  ///< fraction of the step at which the point lands within it; 0: it does not
+    /// Changes of its arms [m] and of its normal from the middle of the step to its end.
+    typename S::Vec armA = S::Vec::Zero(), armB = S::Vec::Zero(), normalTurn = S::Vec::Zero();
 };
 template <class S>
 using RowLags = std::array<RowLag<S>, S::maxManifoldPoints>;
@@ -39,6 +41,10 @@ typename S::Vec relativeVelocity(const PointFrame<S>& at, const Velocity<S>& a, 
     return b.v + cross(b.w, at.rB) - a.v - cross(a.w, at.rA);
 }
 
+/// The largest turn of a normal or an arm in a step that is extrapolated [rad].
+template <class Real>
+inline constexpr Real kMostTurn = Real(0.3);
+
 /// The lag of a point from its frames at the last midpoint and at this one. None where the point is new, its arms zero, or
 /// has moved further than an extrapolation reaches.
 template <class S>
@@ -46,9 +52,8 @@ RowLag<S> rowLag(const PointFrame<S>& last, const PointFrame<S>& now, const Body
                  const Contact<S>& contact) {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
-    constexpr Real kMostTurn = Real(0.3);  // the largest turn of the normal and of an arm [rad]
     const auto jumps = [](const Vec& from, const Vec& to) {
-        return !((to - from).squaredNorm() <= kMostTurn * kMostTurn * to.squaredNorm());
+        return !((to - from).squaredNorm() <= kMostTurn<Real> * kMostTurn<Real> * to.squaredNorm());
     };
     if (jumps(last.normal, now.normal)) return {};
     if (bodies.invMass[contact.bodyA] > 0 && jumps(last.rA, now.rA)) return {};
@@ -58,6 +63,9 @@ RowLag<S> rowLag(const PointFrame<S>& last, const PointFrame<S>& now, const Body
     RowLag<S> lag;
     lag.normal = Real(0.5) * (now.normal.dot(after) - last.normal.dot(before));
     lag.slip = Real(0.5) * (after - before);
+    lag.armA = Real(0.5) * (now.rA - last.rA);
+    lag.armB = Real(0.5) * (now.rB - last.rB);
+    lag.normalTurn = Real(0.5) * (now.normal - last.normal);
     if (contact.driven)
         lag.slip += Real(0.5) * (cross(contact.surfaceB.w, Vec(now.rB - last.rB)) -
                                  cross(contact.surfaceA.w, Vec(now.rA - last.rA)));

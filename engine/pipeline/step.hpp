@@ -19,8 +19,8 @@ namespace rigor::engine {
 /// Way of a body from where the step began to where its contacts were found.
 template <class S>
 struct Lead {
-    Pose<S> start;
-    Velocity<S> motion;  ///< translation [m], rotation vector [rad]
+    Pose<S> start, middle;  ///< poses at its two ends
+    Velocity<S> motion;     ///< translation [m], rotation vector [rad]
 };
 
 /// A body that others hold has landed within the step (step_landings.cpp).
@@ -135,14 +135,19 @@ class Step {
     void measureLead(std::size_t body);
     void changeHalves(std::span<const IslandSize> before);
     void moveContact(Contact<S>& contact, const typename S::Vec& pA, const Velocity<S>& a,
-                     const typename S::Vec& pB, const Velocity<S>& b, bool keepsSeparation) const;
+                     const typename S::Vec& pB, const Velocity<S>& b) const;
     void toEnd();
     void releaseBroken();
     void putJointsRight();
+    // step_shown.cpp
     void showContacts();
+    Velocity<S> motionToEnd(const Contact<S>& contact, std::uint32_t body) const;
+    void showAtEnd(Contact<S>& contact, const RowLags<S>& lags) const;
     void showGap(Contact<S>& contact) const;
+    // step_first_frames.cpp
     void findRenewed(bool same);
     void findFirstFrames();
+    // step_landings.cpp
     void findLandingBodies();
     void beginLandings();
     void placeLandings();

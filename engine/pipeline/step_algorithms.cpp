@@ -47,8 +47,9 @@ template <class S>
 bool allowsLargeIslands(const WorldDef<S>& def, const StepAlgorithms<S>& chosen) {
     return chosen.fault == nullptr && frictionShape(def.friction) == FrictionShape::Cone &&
            !chosen.restitution->solvesImpacts() && !def.measureResiduals &&
-           // Continuous collision of two halves of a step needs both at one time.
-           !(chosen.usual.motion.isAtMidpoint() && continuousCollisionTraits(def.continuousCollision).acts);
+           // They would be found for the midpoints of one half of the step alone.
+           !(chosen.usual.motion.isAtMidpoint() &&
+             continuousCollisionTraits(def.continuousCollision).givesContacts);
 }
 
 template <class S>

@@ -63,7 +63,6 @@ void Step<S>::findFirstFrames() {
     those.forEach(contacts.size(), kBodyGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts[k];
         const std::uint32_t a = contact.bodyA, b = contact.bodyB;
-        if (contact.islands == IslandSize::Large) contact.lastNormal.setZero();
         const bool known = !contact.lastNormal.isZero(0) && !state_.renewed[a] && !state_.renewed[b];
         if (known || contact.islands == IslandSize::Large || contact.asleep) return;
         contact.lastNormal.setZero();

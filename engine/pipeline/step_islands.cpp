@@ -58,6 +58,7 @@ void Step<S>::sortIslands() {
         const IslandSize size = sizeOf(contact.bodyA, contact.bodyB);
         if (size == contact.islands) continue;
         contact.islands = size;
+        contact.lastNormal.setZero();  // another midpoint than that of the last step
         for (auto& impulse : contact.impulses) {
             impulse.normal *= factorTo(size);
             impulse.friction *= factorTo(size);

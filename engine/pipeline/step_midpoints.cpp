@@ -2,29 +2,13 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Steps from midpoint to midpoint (integrators/moreau_midpoint.cpp): the way to the midpoints before everything
-// else, the way back to the end of the step after it, and what the world shows of a step whose contacts and
-// joints acted in its middle.
+// else, and the way back to the end of the step after it. step_shown.cpp has what the world shows of its contacts.
 #include <algorithm>
 
-#include "engine/narrowphase/distance.hpp"
+#include "engine/pipeline/small_turn.hpp"
 #include "engine/pipeline/step.hpp"
 
 namespace rigor::engine {
-namespace {
-
-/// Rotation from q to p as a vector, to third order in its angle [rad].
-template <class R>
-R smallTurn(const Rot2<R>& q, const Rot2<R>& p) {
-    return compose(p, inverse(q)).s;
-}
-template <class R>
-Eigen::Matrix<R, 3, 1> smallTurn(const Eigen::Quaternion<R>& q, const Eigen::Quaternion<R>& p) {
-    const Eigen::Quaternion<R> turn = compose(p, inverse(q));
-    return (turn.w() < R(0) ? R(-2) : R(2)) * turn.vec();
-}
-
-}  // namespace
-
 template <class S>
 void Step<S>::beginFlights() {
     std::vector<std::uint8_t>& bound = state_.bound;
@@ -62,19 +46,6 @@ void Step<S>::endFlights() {
     }
 }
 
-/// A contact that has not acted is shown by the closest points where the step began, unless it is cached.
-template <class S>
-void Step<S>::showGap(Contact<S>& contact) const {
-    const ShapeRecord<S>&a = contacts_.shapes()[contact.shapeA], &b = contacts_.shapes()[contact.shapeB];
-    if (contact.cache.count > 0 || isComposite<S>(a.shape) || isComposite<S>(b.shape)) return;
-    const ClosestPoints<S> closest =
-        closestPoints<S>(a.shape, compose<S>(state_.leads[contact.bodyA].start, a.local), b.shape,
-                         compose<S>(state_.leads[contact.bodyB].start, b.local));
-    contact.manifold.count = 1;
-    contact.manifold.normal = closest.normal;
-    contact.manifold.points[0] = {closest.pointA, closest.pointB, closest.distance, 0};
-}
-
 /// Time from the end of a step to the midpoint of an island's first sub-step.
 template <class S>
 typename S::Real Step<S>::halfOf(IslandSize islands) const {
@@ -104,6 +75,7 @@ template <class S>
 void Step<S>::measureLead(std::size_t i) {
     Lead<S>& lead = state_.leads[i];
     lead.motion = {};
+    lead.middle = bodies_.pose[i];
     if (bodies_.constants[i].type == BodyType::Static || bodies_.asleep[i]) return;
     lead.motion.v = bodies_.pose[i].p - lead.start.p;
     lead.motion.w = smallTurn(lead.start.q, bodies_.pose[i].q);
@@ -142,16 +114,16 @@ void Step<S>::changeHalves(std::span<const IslandSize> before) {
             const bool kinematic = bodies_.constants[i].type == BodyType::Kinematic;
             return typename S::Vec(kinematic ? bodies_.pose[i].p : bodies_.pose[i].p - motion.v);
         };
-        moveContact(contact, at(contact.bodyA, a), a, at(contact.bodyB, b), b, false);
+        moveContact(contact, at(contact.bodyA, a), a, at(contact.bodyB, b), b);
     }
 }
 
 /// Moves the points of a contact with its bodies, which are at pA, pB before. Both points move without
 /// rotation, so that the arms of round bodies that roll stay as they are, and then along the normal: to the
-/// separation of the points that have turned with the bodies, or to that before if it is kept.
+/// separation of the points that have turned with the bodies.
 template <class S>
 void Step<S>::moveContact(Contact<S>& contact, const typename S::Vec& pA, const Velocity<S>& a,
-                          const typename S::Vec& pB, const Velocity<S>& b, bool keepsSeparation) const {
+                          const typename S::Vec& pB, const Velocity<S>& b) const {
     const typename S::Vec& n = contact.manifold.normal;
     const bool movesA = bodies_.invMass[contact.bodyA] > 0, movesB = bodies_.invMass[contact.bodyB] > 0;
     const Real shareB = movesA && movesB ? Real(0.5) : movesA ? Real(0) : Real(1);
@@ -160,10 +132,9 @@ void Step<S>::moveContact(Contact<S>& contact, const typename S::Vec& pA, const 
         const Real apart = n.dot(b.v - a.v);
         const Real turned = n.dot(cross(b.w, typename S::Vec(point.pointB - pB)) -
                                   cross(a.w, typename S::Vec(point.pointA - pA)));
-        const Real along = keepsSeparation ? -apart : turned;
-        point.separation += apart + along;
-        point.pointA += a.v - ((Real(1) - shareB) * along) * n;
-        point.pointB += b.v + (shareB * along) * n;
+        point.separation += apart + turned;
+        point.pointA += a.v - ((Real(1) - shareB) * turned) * n;
+        point.pointB += b.v + (shareB * turned) * n;
     }
     contact.placed = false;
 }
@@ -230,28 +201,6 @@ void Step<S>::putJointsRight() {
                                state_.positions);
     positions.holdMotors();
     algorithms_.correction->correct(positions, std::min(def_.positionIterations, 2), def_.slop);
-}
-
-/// Contacts are shown where the step began, with the arms that their impulses had. Those that have pressed keep
-/// the separation of the middle of the step, to which the velocities at its end answer.
-template <class S>
-void Step<S>::showContacts() {
-    ContactList<S>& contacts = contacts_.list();
-    tasks_.forEach(contacts.size(), kBodyGrain, [&](std::size_t k) {
-        Contact<S>& contact = contacts[k];
-        const auto back = [&](std::uint32_t i) {
-            const Velocity<S>& lead = state_.leads[i].motion;
-            const bool earlier =
-                contact.islands == IslandSize::Large && bodies_.constants[i].type == BodyType::Kinematic;
-            const Real share = earlier ? -halfOf(IslandSize::Large) / halfOf(IslandSize::Usual) : Real(-1);
-            return Velocity<S>{typename S::Vec(share * lead.v), Ang(share * lead.w)};
-        };
-        const Velocity<S> a = back(contact.bodyA), b = back(contact.bodyB);
-        const bool pressed = std::any_of(contact.totals.begin(), contact.totals.end(),
-                                         [](const auto& total) { return total.normal > 0; });
-        moveContact(contact, state_.leads[contact.bodyA].start.p - a.v, a,
-                    state_.leads[contact.bodyB].start.p - b.v, b, pressed);
-    });
 }
 
 #define RIGOR_INSTANTIATE(S)                                          \

@@ -195,8 +195,12 @@ class World {
     /// Contacts of the last narrow phase, sorted by shapes: normal, points with their separations and
     /// features, and the impulses they start with. The list also has points that the solver does not need.
     const ContactList<S>& manifolds() const { return parts_.contacts.list(); }
-    /// Replaces `out` by the contacts of the last step: the points that got rows.
+    /// Replaces `out` by the contacts of the last step: the points that got rows. Where they lie:
+    /// contactsAtStepEnd().
     void readContacts(std::vector<ContactView<S>>& out) const;
+    /// True if points, normals and separations of contacts are those of the poses at the end of the step, as with
+    /// `moreau_midpoint`; false: of the poses at its start, where they were found.
+    bool contactsAtStepEnd() const { return parts_.algorithms.usual.motion.isAtMidpoint(); }
     /// The rows of the last sub-step, solved or not yet.
     const ConstraintRows<S>& rows() const { return step_.rows; }
     /// First row of a joint and the number of its rows.

@@ -60,6 +60,7 @@ RecordedStep runToStep(const scenario::Scenario& s, const ExportRequest& request
         world->readStates(recorded.after);
     }
     world->readContacts(recorded.contacts);
+    recorded.contactInstant = world->contactInstant();
     recorded.loads = loadsOf(s, request.step - 1, request.dt, recorded.before);
     return recorded;
 }

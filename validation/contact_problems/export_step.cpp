@@ -148,7 +148,7 @@ class StepExporter {
                 "an exported contact has no rolling or torsional friction and no moving surface; " +
                 s_.bodies[placeOf(contact.bodyA)].name + " and " + s_.bodies[placeOf(contact.bodyB)].name +
                 " have");
-        const PointOfContact point(s_, contact, step_.before);
+        const PointOfContact point(s_, contact, step_.atContacts());
         const auto tangents = tangentsOf(contact.normal, s_.dimension);
         const Vec3 impulse = contact.normalImpulse * contact.normal + contact.frictionImpulse;
         for (int k = 0; k < s_.dimension; ++k) {

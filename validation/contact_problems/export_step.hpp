@@ -35,6 +35,11 @@ struct RecordedStep {
     double dt = 0.0;
     std::vector<BodyState> before, after;  ///< states by scenario index
     std::vector<ContactPoint> contacts;
+    adapter::ContactInstant contactInstant = adapter::ContactInstant::StepStart;
+    /// The states that the contacts belong to.
+    const std::vector<BodyState>& atContacts() const {
+        return contactInstant == adapter::ContactInstant::StepEnd ? after : before;
+    }
     std::vector<AppliedLoad> loads;  ///< loads by scenario index
 };
 

@@ -63,15 +63,15 @@ Vec3 carried(const Vec3& point, const BodyState& from, const BodyState& to) {
     return scenario::Pose{to.position, to.orientation} * (inverse(before) * point);
 }
 
-/// Contacts with the points where they were found, and where their bodies have carried those since.
-void addContacts(Packet& packet, const std::vector<ContactPoint>& contacts, std::span<const BodyState> before,
+/// Contacts with the points where they were found, at the states `found`, and where their bodies have carried those since.
+void addContacts(Packet& packet, const std::vector<ContactPoint>& contacts, std::span<const BodyState> found,
                  std::span<const BodyState> now) {
     Indices bodyA, bodyB, shapeA, shapeB;
     Numbers pointA, pointB, normal, depth, normalImpulse, frictionImpulse, carriedA, carriedB;
     for (const ContactPoint& c : contacts) {
         const auto a = static_cast<std::size_t>(c.bodyA), b = static_cast<std::size_t>(c.bodyB);
-        carriedA << carried(c.pointA, before[a], now[a]);
-        carriedB << carried(c.pointB, before[b], now[b]);
+        carriedA << carried(c.pointA, found[a], now[a]);
+        carriedB << carried(c.pointB, found[b], now[b]);
         bodyA << c.bodyA;
         bodyB << c.bodyB;
         shapeA << c.shapeA;
@@ -208,7 +208,9 @@ Packet instanceFrame(InstanceWorld& instance, bool stages) {
     std::vector<ContactPoint> contacts;
     const std::span<const BodyState> before = instance.statesBefore();
     if (!before.empty()) instance.world().readContacts(contacts);
-    addContacts(packet, contacts, before, instance.states());
+    const bool atEnd = instance.world().contactInstant() == adapter::ContactInstant::StepEnd;
+    header["contacts_at_step_end"] = atEnd;
+    addContacts(packet, contacts, atEnd ? instance.states() : before, instance.states());
     header["counters"] = counters(instance.world().counters());
     if (const auto history = instance.history())
         header["history"] = {

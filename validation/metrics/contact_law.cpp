@@ -3,12 +3,13 @@
 //
 // The laws of Signorini and Coulomb, point by point, for engines that report their impulses: by how much, as
 // a velocity [m/s], what the engine did at a contact misses each law. With the frame, arms and K of
-// contact_point.hpp at the states where the step began, u the relative velocity at its end (u- at its start),
+// contact_point.hpp at the states that the contacts belong to, u the relative velocity at the step's end (u- at its start),
 // p_n and p_t the impulses of the step, s the separation (minus the depth), h the step, e and mu those of the
 // pair:
 //
 //   Signorini    0 <= p_n  _|_  u_n - u_low >= 0, where
-//                    u_low  = -s/h apart, e (approach) touching or overlapping
+//                    u_low  = -s/h apart, e (approach) touching or overlapping; where contacts belong to the end of
+//                             the step -s/(h/2): until they are found again there may be half a step
 //                the residual is the largest of     u_low - u_n            (it comes too near)
 //                                                   -K_nn p_n              (it pulls)
 //                                                   min(K_nn p_n, u_n - u_high)   (it pushes what leaves)
@@ -49,7 +50,8 @@ struct ContactStep {
     PairCoefficients pair;
     PointOfContact point;
     std::span<const BodyState> before, after;
-    double h;
+    double h;      ///< [s]
+    double until;  ///< time in which a gap may be closed [s]
 
     double normalImpulse() const { return contact.normalImpulse; }
     Vec3 tangential(const Vec3& v) const { return v - dot(v, contact.normal) * contact.normal; }
@@ -69,7 +71,7 @@ double signorini(const ContactStep& d) {
     const double late = then + d.h * gravityAlong(d);
     const double slow = std::max(0.0, -std::max(then, late)), fast = std::max(0.0, -std::min(then, late));
     const double apart = -d.contact.depth, e = d.pair.restitution;
-    const double low = apart > 0.0 ? -apart / d.h : e * slow;
+    const double low = apart > 0.0 ? -apart / d.until : e * slow;
     const double high = std::max(0.0, -apart) / d.h + e * fast;
     const double push = d.point.normalMobility() * d.normalImpulse();
     return std::max({0.0, low - now, -push, std::min(push, now - high)});
@@ -110,7 +112,8 @@ std::vector<MetricValue> largest(const MetricInput& input, double (*defect)(cons
     if (needsStates && t.stride != 1) return {};
     std::map<int, Worst> worst;
     const std::size_t frames = std::min(t.frames(), t.contacts.size());
-    for (std::size_t k = 0; k + 1 < frames; ++k)
+    const bool atEnd = t.contactInstant == adapter::ContactInstant::StepEnd;
+    for (std::size_t k = atEnd; k + !atEnd < frames; ++k)
         for (const ContactPoint& contact : t.contacts[k]) {
             if (!contact.hasImpulse || !isKnownContact(input.scenario, contact)) continue;
             if (contact.depth < 0.0 && contact.normalImpulse == 0.0) continue;
@@ -118,9 +121,10 @@ std::vector<MetricValue> largest(const MetricInput& input, double (*defect)(cons
                                    contact,
                                    coefficientsOf(input.scenario, contact),
                                    {input.scenario, contact, t.frame(k)},
-                                   t.frame(k),
-                                   t.frame(k + 1),
-                                   t.dt};
+                                   t.frame(k - atEnd),
+                                   t.frame(k + !atEnd),
+                                   t.dt,
+                                   atEnd ? 0.5 * t.dt : t.dt};
             const double value = defect(step);
             for (const int body : {contact.bodyA, contact.bodyB})
                 if (isDynamic(input.scenario, body)) worst[body].add(value, t.times[k]);

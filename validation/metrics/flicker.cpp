@@ -39,7 +39,7 @@ void overTriples(const MetricInput& input, Look&& look) {
     if (run.stride != 1) return;
     std::array<Normals, 3> window;  // frame k at k % 3
     const std::size_t frames = std::min(run.frames(), run.contacts.size());
-    for (std::size_t k = 0; k + 1 < frames; ++k) {  // no step begins at the last one
+    for (std::size_t k = 0; k < frames; ++k) {  // one at an end of the run has none
         window[k % 3] = deepestNormals(run.contacts[k]);
         if (k < 2) continue;
         const Normals &before = window[(k - 2) % 3], &now = window[(k - 1) % 3], &after = window[k % 3];

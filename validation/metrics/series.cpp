@@ -60,14 +60,16 @@ void addContacts(const MetricInput& input, std::vector<Series>& result) {
     bool any = false;
     Series depth{"penetration", "", "m", std::vector<double>(frames, 0.0)},
         count{"contacts", "", "1", std::vector<double>(frames, 0.0)};
-    for (std::size_t k = 0; k + 1 < frames; ++k) {
+    for (std::size_t k = 0; k < frames; ++k) {
         for (const auto& contact : input.trajectory.contacts[k])
             depth.values[k] = std::max(depth.values[k], contact.depth);
         count.values[k] = input.trajectory.contacts[k].size();
         any = any || !input.trajectory.contacts[k].empty();
     }
     if (!any) return;
-    depth.values.back() = count.values.back() = kNone;  // no step begins there
+    const bool atEnd = input.trajectory.contactInstant == adapter::ContactInstant::StepEnd;
+    const std::size_t without = atEnd ? 0 : frames - 1;  // no step ends, or begins, there
+    depth.values[without] = count.values[without] = kNone;
     result.push_back(std::move(depth));
     result.push_back(std::move(count));
 }

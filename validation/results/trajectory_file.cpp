@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 3;
+constexpr int kFormat = 4;  ///< of files whose contacts stand at the ends of their steps
+constexpr int kFormatOfStarts = 3;
 constexpr int kLastWithoutInstants = 2;
 constexpr const char* kScene = "_";  ///< dataset name of a series without a subject
 
@@ -178,7 +179,10 @@ std::vector<ContactSample> readContacts(Hdf5File& file) {
 
 std::string imageOf(const TrajectoryFile& data) {
     Hdf5File file = Hdf5File::create();
-    file.setInteger("/", "rigor_trajectory", data.contactInstantsKnown ? kFormat : kLastWithoutInstants);
+    file.setInteger("/", "rigor_trajectory",
+                    !data.contactInstantsKnown ? kLastWithoutInstants
+                    : data.contactsAtStepEnd   ? kFormat
+                                               : kFormatOfStarts);
     file.setText("/", "scenario", data.scenario);
     file.setText("/", "spec", data.spec);
     file.setText("/", "case_id", data.caseId);
@@ -264,6 +268,7 @@ TrajectoryFile parseTrajectory(const std::string& bytes, bool withContacts) {
     data.reference = readBodies(file, "/reference");
     data.series = readSeries(file);
     data.contactInstantsKnown = format > kLastWithoutInstants;
+    data.contactsAtStepEnd = format > kFormatOfStarts;
     if (withContacts) data.contacts = readContacts(file);
     checkWhole(data);
     return data;
@@ -275,6 +280,7 @@ void requireStates(const TrajectoryFile& file) {
 
 bool contactsStored(const TrajectoryFile& file, std::size_t frame) {
     if (frame % static_cast<std::size_t>(std::max(1, file.contactStride)) != 0) return false;
+    if (file.contactsAtStepEnd) return frame > 0 && frame < file.times.size();
     return file.contactInstantsKnown ? frame + 1 < file.times.size() : frame < file.times.size();
 }
 

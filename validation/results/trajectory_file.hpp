@@ -30,7 +30,7 @@ struct SeriesChannel {
     Channel channel;  ///< one column
 };
 
-/// A contact belongs to the poses of the frame at `time`, at which its step began.
+/// A contact belongs to the poses of the frame at `time`, at which its step began or ended (contactsAtStepEnd).
 struct ContactSample {
     double time = 0.0;
     int bodyA = 0, bodyB = 0, shapeA = 0, shapeB = 0;
@@ -54,12 +54,15 @@ struct TrajectoryFile {
     /// False for a file of before format 3: its contacts stand at the frame after their step, and what poses
     /// they belong to is not known.
     bool contactInstantsKnown = true;
+    /// False: contacts stand at the frame at which their step began; true: at which it ended.
+    bool contactsAtStepEnd = false;
 };
 
 /// Throws std::runtime_error if a body lacks a channel. Those that a file has fit its frames: reading checks that.
 void requireStates(const TrajectoryFile& file);
 
-/// True if the contacts of the step that begins at this frame are stored; the last frame begins none.
+/// True if the contacts of the step that begins, or ends, at this frame are stored; the last frame begins none, and the
+/// first one ends none.
 bool contactsStored(const TrajectoryFile& file, std::size_t frame);
 
 /// Replaces `file` at once: it is the old one or the whole new one, never a part. A line with a checksum follows the

@@ -235,6 +235,7 @@ results::TrajectoryFile trajectoryFile(const MetricInput& input, const CaseRow& 
         file.series.push_back({s.name, s.subject, {s.unit, 1, s.values}});
     const std::size_t every = contactStride(t);
     file.contactStride = every;
+    file.contactsAtStepEnd = t.contactInstant == adapter::ContactInstant::StepEnd;
     file.contacts = contactSamples(t, every);
     return file;
 }

@@ -59,7 +59,9 @@ std::string EventLog::step(double time, std::span<const BodyState> states,
         return "t=" + results::exactText(t) + " step=" + std::to_string(step) + " ";
     };
     const auto manifolds = gathered(contacts);
-    stamp_ = stampOf(beforeTime_, step_ > 0 ? step_ - 1 : 0);
+    atEnd_ = reports.contactInstant == adapter::ContactInstant::StepEnd;
+    contactTime_ = atEnd_ ? time : beforeTime_;
+    stamp_ = stampOf(contactTime_, atEnd_ || step_ == 0 ? step_ : step_ - 1);
     contactEvents(manifolds);
     if (what_ != LogWhat::Contacts) impactEvents(states, manifolds);
     stamp_ = stampOf(time, step_);
@@ -74,7 +76,7 @@ void EventLog::contactEvents(const std::map<Pair, Manifold>& manifolds) {
     for (const auto& [pair, m] : manifolds) {
         const auto [it, begins] = touching_.try_emplace(pair);
         Touch& touch = it->second;
-        if (begins) touch.since = beforeTime_;
+        if (begins) touch.since = contactTime_;
         touch.seen = step_;
         ++touch.steps;
         touch.impulseSum += m.normalImpulse;
@@ -105,8 +107,9 @@ void EventLog::impactEvents(std::span<const BodyState> states, const std::map<Pa
     if (before_.empty()) return;
     const double least = std::max(kLeastImpactSpeed, 2.0 * norm(scenario_.gravity) * dt_);
     for (const auto& [pair, m] : manifolds) {
-        const double approach = separationSpeed(pair, *m.deepest, before_);
-        const double after = separationSpeed(pair, *m.deepest, states);
+        const std::span<const BodyState> found = atEnd_ ? states : std::span<const BodyState>(before_);
+        const double approach = separationSpeed(pair, *m.deepest, found, before_);
+        const double after = separationSpeed(pair, *m.deepest, found, states);
         if (!(approach <= -least) || !(after - approach >= -kStoppedShare * approach)) continue;
         std::string text = "impact " + pairText(pair) + " n=" + vector(m.deepest->normal) +
                            " vn=" + number(approach) + " vn_after=" + number(after);
@@ -115,13 +118,13 @@ void EventLog::impactEvents(std::span<const BodyState> states, const std::map<Pa
     }
 }
 
-double EventLog::separationSpeed(const Pair& pair, const ContactPoint& at,
+double EventLog::separationSpeed(const Pair& pair, const ContactPoint& at, std::span<const BodyState> found,
                                  std::span<const BodyState> states) const {
     const Vec3 p = middle(at);
     const auto velocity = [&](int body) {
         const auto i = static_cast<std::size_t>(body);
         const BodyState& s = states[i];
-        return s.velocity + cross(s.angularVelocity, p - centerOfMassOf(scenario_.bodies[i], before_[i]));
+        return s.velocity + cross(s.angularVelocity, p - centerOfMassOf(scenario_.bodies[i], found[i]));
     };
     return dot(velocity(pair[1]) - velocity(pair[0]), at.normal);
 }

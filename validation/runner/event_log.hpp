@@ -49,6 +49,7 @@ class EventLog {
     struct EngineReports {
         std::function<bool(int body)> asleep;
         std::function<bool(int joint)> holds;
+        adapter::ContactInstant contactInstant = adapter::ContactInstant::StepStart;
     };
 
     /// The scenario must outlive the log.
@@ -80,7 +81,9 @@ class EventLog {
     void contactEvents(const std::map<Pair, Manifold>& manifolds);
     void impactEvents(std::span<const BodyState> states, const std::map<Pair, Manifold>& manifolds);
     void reportedEvents(const EngineReports& reports);
-    double separationSpeed(const Pair& pair, const ContactPoint& at, std::span<const BodyState> states) const;
+    /// Speed at which the surfaces part at a contact of the states `found`, with the velocities of `states` [m/s].
+    double separationSpeed(const Pair& pair, const ContactPoint& at, std::span<const BodyState> found,
+                           std::span<const BodyState> states) const;
     std::string pairText(const Pair& pair) const;
     std::string idText(const Pair& pair) const;
     void line(const std::string& text);
@@ -88,11 +91,13 @@ class EventLog {
     const scenario::Scenario& scenario_;
     double dt_;
     LogWhat what_;
+    bool atEnd_ = false;  ///< contacts belong to the end of their step
     std::size_t step_ = 0;
     std::string stamp_, out_;
     std::map<Pair, Touch> touching_;
     std::vector<BodyState> before_;
-    double beforeTime_ = 0.0;  ///< [s] of before_
+    double beforeTime_ = 0.0;   ///< [s] of before_
+    double contactTime_ = 0.0;  ///< [s] of the contacts of this step
     std::vector<char> asleep_, broken_;
 };
 

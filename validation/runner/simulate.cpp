@@ -121,6 +121,8 @@ Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, 
     t.bodyCount = bodies;
     t.stride = options.stride > 0 ? options.stride : recordingStride(total, bodies);
     const auto stride = static_cast<std::size_t>(t.stride);
+    t.contactInstant = world.contactInstant();
+    const bool atEnd = t.contactInstant == adapter::ContactInstant::StepEnd;
 
     Stepper stepper(scenario, dt, world);
     std::vector<ContactPoint> contacts;
@@ -135,16 +137,19 @@ Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, 
         stepper.begin();
         watch.measure(world);
         stepper.end();
-        if (beginsAtFrame || options.onStep) world.readContacts(contacts);
-        if (beginsAtFrame) t.contacts.back() = contacts;
-        if (stepper.steps() % stride == 0) {
+        const bool endsAtFrame = stepper.steps() % stride == 0;
+        const bool recorded = atEnd ? endsAtFrame : beginsAtFrame;
+        if (recorded || options.onStep) world.readContacts(contacts);
+        if (recorded && !atEnd) t.contacts.back() = contacts;
+        if (endsAtFrame) {
             appendFrame(t, stepper.time(), stepper.states());
+            if (atEnd) t.contacts.back() = contacts;
             run.nonFinite = stepper.nonFinite();
         }
         if (options.onWorld) options.onWorld(world);
         if (options.onStep) options.onStep(stepper.time(), stepper.states(), contacts);
     }
-    t.contacts.back().clear();  // contacts of steps that no frame ends
+    if (!atEnd) t.contacts.back().clear();  // contacts of steps that no frame ends
     if (run.nonFinite.empty()) run.nonFinite = stepper.nonFinite();
     run.steps = stepper.steps();
     run.stateHash = stepper.stateHash();

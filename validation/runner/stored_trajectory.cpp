@@ -47,6 +47,7 @@ Trajectory trajectoryOf(const results::TrajectoryFile& file) {
     t.bodyCount = file.bodies.size();
     t.times = file.times;
     t.contacts.resize(t.frames());
+    if (file.contactsAtStepEnd) t.contactInstant = adapter::ContactInstant::StepEnd;
     t.states.reserve(t.frames() * t.bodyCount);
     for (std::size_t f = 0; f < t.frames(); ++f)
         for (const auto& body : file.bodies) t.states.push_back(stateAt(body, f));

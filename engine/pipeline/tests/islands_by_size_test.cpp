@@ -129,11 +129,13 @@ void expectBothMoveAlone(const std::string& continuousCollision, const std::stri
     EXPECT_GT(load, 0.5 * kStep * kGravity * 15) << "the ground carries all boxes";
 }
 TYPED_TEST(IslandsBySize, EitherMovesAsWithoutTheOther) {
-    for (const std::string choice : {"none", "conservative_advancement", "speculative"}) {
-        SCOPED_TRACE(choice);
-        expectBothMoveAlone<TypeParam>(choice, "symplectic_euler");
-    }
-    expectBothMoveAlone<TypeParam>("none", "moreau_midpoint");
+    for (const std::string choice : {"none", "conservative_advancement", "speculative"})
+        for (const std::string integrator : kIntegrators) {
+            if (choice == "speculative" && integrator == "moreau_midpoint")
+                continue;  // no large islands then
+            SCOPED_TRACE(choice + ", " + integrator);
+            expectBothMoveAlone<TypeParam>(choice, integrator);
+        }
 }
 
 /// Large islands are another method: the same scene with `block` alone goes another way.

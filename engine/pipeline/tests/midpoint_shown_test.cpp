@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A world shows of a step from midpoint to midpoint the state at its end, and contacts where it began.
+// A world shows of a step from midpoint to midpoint the state at its end, and its contacts there.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,22 +26,23 @@ WorldDef<S> midpointDef() {
     return def;
 }
 
-/// A ball that rolls: the contact lies below its centre where the step began, at no distance.
-TYPED_TEST(MidpointShown, ContactsAreWhereTheStepBegan) {
+/// A ball that rolls: the contact lies below its centre where the step ends, at no distance.
+TYPED_TEST(MidpointShown, ContactsAreWhereTheStepEnds) {
     using S = TypeParam;
     World<S> world(midpointDef<S>());
     const auto felt = world.addMaterial(0.5, 0);
     addGround<S>(world, felt);
     const double r = 0.1, v = 3;
     const BodyId ball = addBall<S>(world, 0, r, r, 1, felt, v, 0, -v / r);
+    EXPECT_TRUE(world.contactsAtStepEnd());
     for (int i = 0; i < 30; ++i) {
-        const typename S::Vec from = world.pose(ball).p;
         world.step(kFrame);
+        const typename S::Vec center = world.pose(ball).p;
         std::vector<ContactView<S>> contacts;
         world.readContacts(contacts);
         ASSERT_EQ(contacts.size(), 1u) << i;
         const ContactView<S>& contact = contacts[0];
-        EXPECT_NEAR(contact.pointB[0], from[0], 1e-12) << i;
+        EXPECT_NEAR(contact.pointB[0], center[0], 1e-12) << i;
         EXPECT_NEAR(contact.pointB[1], 0, 1e-9) << i;
         EXPECT_NEAR(contact.pointA[1], 0, 1e-9) << i;
         EXPECT_NEAR(contact.normalImpulse, kFrame * kGravity, 1e-9) << i;
@@ -156,8 +157,7 @@ BodyId addBoard(World<S>& world, double angle, std::uint32_t material) {
     return board;
 }
 
-/// It turns about the edge and keeps its energy; the edge neither parts nor closes by more than the separation allows, where
-/// the step ends.
+/// It turns about the edge and keeps its energy; the contact is the edge, which neither parts nor closes, where the step ends.
 TYPED_TEST(MidpointShown, ABoardThatTipsKeepsItsEnergy) {
     using S = TypeParam;
     World<S> world(midpointDef<S>());
@@ -172,21 +172,24 @@ TYPED_TEST(MidpointShown, ABoardThatTipsKeepsItsEnergy) {
     };
     const double start = energy();
     for (int i = 0; i < 24; ++i) {
-        const Pose<S> from = world.pose(board);
         world.step(kFrame);
         ASSERT_NEAR(energy(), start, 3e-4 * start) << i;
         std::vector<ContactView<S>> contacts;
         world.readContacts(contacts);
         ASSERT_FALSE(contacts.empty()) << i;
+        const Pose<S> end = world.pose(board);
+        const double w = spinOf<S>(world.angularVelocity(board)), lag = 0.5 * kFrame * w * w * 0.25;
         for (const ContactView<S>& contact : contacts) {
             if (!(contact.normalImpulse > 0)) continue;
-            // The arm is that of the middle of the step: half a step before the velocity, which holds the edge.
-            const typename S::Vec arm = contact.pointB - from.p;
-            const typename S::Vec later = rotate(world.pose(board).q, rotateInverse<double>(from.q, arm));
-            const typename S::Vec u = world.velocity(board) + cross(world.angularVelocity(board),
-                                                                    typename S::Vec(0.5 * (arm + later)));
-            const double w = spinOf<S>(world.angularVelocity(board)), lag = 0.5 * kFrame * w * w * 0.25;
-            ASSERT_NEAR(u[1], -contact.separation / kFrame, 0.25 * lag + 5e-6) << i;
+            const typename S::Vec arm = contact.pointB - end.p;
+            const typename S::Vec u = world.velocity(board) + cross(world.angularVelocity(board), arm);
+            ASSERT_NEAR(u[1], 0, 0.1 * lag + 5e-6) << i;
+            const typename S::Vec local = rotateInverse<double>(end.q, arm);
+            const double second =
+                kFrame * kFrame * 0.25 * (0.5 * w * w + 2);  // first order: kFrame / 2 * 0.25 * w
+            ASSERT_NEAR(std::abs(local[0]), 0.05, second) << i;
+            ASSERT_NEAR(local[1], -0.25, second) << i;
+            ASSERT_NEAR(contact.pointB[1], contact.separation, second) << i;
         }
     }
     EXPECT_GT(std::abs(spinOf<S>(world.angularVelocity(board))), 1);

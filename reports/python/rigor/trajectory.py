@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 Array = npt.NDArray[np.float64]
 
 #: The newest format of trajectory files that this package knows.
-NEWEST_TRAJECTORY = 3
+NEWEST_TRAJECTORY = 4
 
 #: One contact point: bodies and shapes by their indices in the scenario (A is the lower one), world frame.
 CONTACT = np.dtype(
     [
-        ("time", "f8"),  # of the frame at which its step began [s]
+        ("time", "f8"),  # of the frame at which its step began, or ended (contacts_at_step_end) [s]
         ("body_a", "i4"),
         ("body_b", "i4"),
         ("shape_a", "i4"),
@@ -77,6 +77,8 @@ class Trajectory:
     stride: int
     #: Frames between those whose contacts are stored.
     contact_stride: int
+    #: False: contacts stand at the frame at which their step began; True: at which it ended.
+    contacts_at_step_end: bool
     #: Time of each frame [s].
     time: Array
     #: All bodies by name, in the order of the scenario.
@@ -114,7 +116,7 @@ class Trajectory:
         return np.asarray(np.linalg.norm(found - exact, axis=1))
 
     def contacts_at(self, frame: int) -> npt.NDArray[Any]:
-        """Contacts of the step that begins at a frame; empty for frames whose contacts are not stored."""
+        """Contacts of the step that begins, or ends, at a frame; empty for frames whose contacts are not stored."""
         chosen: npt.NDArray[Any] = self.contacts[self.contacts["time"] == self.time[frame]]
         return chosen
 
@@ -159,6 +161,7 @@ def _read(h5: h5py.File, file: Path) -> Trajectory:
         dt=float(h5.attrs["dt"]),
         stride=int(h5.attrs["stride"]),
         contact_stride=int(h5.attrs.get("contact_stride", 1)),
+        contacts_at_step_end=version > 3,
         time=time,
         bodies=_motions(h5.get("bodies")),
         reference=_motions(h5.get("reference")),

@@ -138,6 +138,22 @@ TEST(Signorini, FramesFartherApartThanStepsSayNothing) {
         EXPECT_EQ(step.value(metric), -1.0) << metric;
 }
 
+/// A ball that rolls: where its contact was found after it had moved, the point at rest is that below its last place.
+TEST(ContactLaw, ContactsOfTheStepsEndAreJudgedAtItsPoses) {
+    OneStep step;
+    step.after().position = {0.1, 0.25, 0};
+    step.after().velocity = {1, 0, 0};
+    step.after().angularVelocity = {0, 0, -4};
+    step.contact().pointA = step.contact().pointB = {0.1, 0, 0};
+    step.contact().frictionImpulse = {0.3, 0, 0};
+    EXPECT_NEAR(step.signorini(), 0.4, 1e-14)
+        << "held against the first place, it goes down by 4 rad/s x 0.1 m";
+    step.run.contacts = {{}, {step.contact()}};
+    step.run.contactInstant = adapter::ContactInstant::StepEnd;
+    EXPECT_NEAR(step.signorini(), 0.0, 1e-14);
+    EXPECT_NEAR(step.dissipation(), 0.0, 1e-14);
+}
+
 TEST(Coulomb, ThePairsOwnCoefficientCounts) {
     OneStep step;
     step.contact().frictionImpulse = {0, 0, 1.1};

@@ -121,6 +121,22 @@ TEST_P(RoundTrip, IsBitExact) {
 }
 INSTANTIATE_TEST_SUITE_P(Frames, RoundTrip, testing::Values(1u, 7u, 20000u));
 
+/// The last frame begins no step, the first one ends none.
+TEST(TrajectoryFile, SaysWhetherContactsStandAtTheEndOfTheirStep) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "case.h5";
+    TrajectoryFile data = sampleFile(6);
+    data.contactStride = 1;
+    for (const bool atEnd : {false, true}) {
+        data.contactsAtStepEnd = atEnd;
+        writeTrajectory(file, data);
+        const TrajectoryFile read = readTrajectory(file);
+        EXPECT_EQ(read.contactsAtStepEnd, atEnd);
+        EXPECT_EQ(contactsStored(read, 0), !atEnd);
+        EXPECT_EQ(contactsStored(read, 5), atEnd);
+    }
+}
+
 /// Formats before 3 stored contacts at the frame after their step: they are read and marked as of an unknown
 /// instant, also after the file was written anew.
 TEST(TrajectoryFile, ContactsOfAnOlderFormatAreOfAnUnknownInstant) {

@@ -261,6 +261,19 @@ TEST_F(InRun, TheWorstPlaceNamesItsContact) {
     EXPECT_EQ(std::stol(row.worst.substr(at + 10)) % 2, 1) << "the deeper one of its pair: " << row.worst;
 }
 
+/// Contacts of the ends of steps are those of the frames there: the first frame has none, and is not held against the engine.
+TEST_F(InRun, ContactsOfTheStepsEndAreJudgedAtItsFrame) {
+    const bool touches = file_.contacts.front().time == 0.0;
+    file_.contactsAtStepEnd = true;
+    std::erase_if(file_.contacts, [](const ContactSample& c) { return c.time == 0.0; });
+    for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {1, 2}}) addTruth(kFrames - 1, a, b);
+    const auto row = audited();
+    EXPECT_TRUE(touches) << "else frame 0 would show nothing";
+    EXPECT_GE(row.frames, 10);
+    EXPECT_EQ(row.missed + row.spurious + row.undecided, 0) << row.worst;
+    EXPECT_LT(row.normalErrorMax.value(), 1e-9);
+}
+
 /// A file of an older format does not store which poses its contacts belong to: they are not judged.
 TEST_F(InRun, ContactsOfAnUnknownInstantAreNotJudged) {
     EXPECT_GT(audited().queries, 0);

@@ -113,6 +113,21 @@ TEST_F(EventLogTest, AnImpactIsASpeedOfApproachThatIsTakenAway) {
     EXPECT_EQ(step(log, 0, {contact(0, 1)}).size(), 1u);
 }
 
+/// Contacts of the end of a step have its time, and its poses; what they take away is the approach before.
+TEST_F(EventLogTest, ContactsOfTheStepsEndHaveItsTime) {
+    reports_.contactInstant = adapter::ContactInstant::StepEnd;
+    EventLog log(scene_, 0.01, LogWhat::Events);
+    step(log, -3, {});
+    const auto hit = step(log, 1.5, {contact(0, 4.5)});
+    ASSERT_EQ(hit.size(), 2u);
+    EXPECT_EQ(hit[0].find("t=0.01 step=1 begin contact"), 0u) << hit[0];
+    EXPECT_EQ(hit[1].find("t=0.01 step=1 impact a=floor b=ball n=(0,1,0) vn=-3 vn_after=1.5 jn=4.5"), 0u)
+        << hit[1];
+    const auto left = step(log, 1.5, {});
+    ASSERT_EQ(left.size(), 1u);
+    EXPECT_NE(left[0].find("since=0.01 steps=1"), std::string::npos) << left[0];
+}
+
 TEST_F(EventLogTest, SleepAndBreakingAreReportedOnce) {
     EventLog log(scene_, 0.01, LogWhat::Events);
     bool asleep = false, holds = true;

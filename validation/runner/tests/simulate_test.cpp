@@ -84,6 +84,41 @@ TEST(Simulate, CallsTheObserverAfterEveryStep) {
     EXPECT_EQ(run.trajectory.frames(), 6u);
 }
 
+/// One contact after every step, as deep as there were steps.
+class CountingWorld : public doubles::FreeFlightWorld {
+  public:
+    CountingWorld(const scenario::Scenario& s, double dt, adapter::ContactInstant instant)
+        : FreeFlightWorld(s, dt, plainSettings()), instant_(instant) {}
+    void readContacts(std::vector<ContactPoint>& contacts) const override {
+        contacts.assign(1, ContactPoint{});
+        contacts[0].depth = static_cast<double>(steps_);
+    }
+    adapter::ContactInstant contactInstant() const override { return instant_; }
+
+  private:
+    adapter::ContactInstant instant_;
+};
+
+/// Contacts stand at the frame where their step began or, if the world says so, ended, whatever the stride is.
+TEST(Simulate, ContactsStandAtTheirInstant) {
+    const auto s = load(thrownBall("ball")).first;
+    for (const auto instant : {adapter::ContactInstant::StepStart, adapter::ContactInstant::StepEnd}) {
+        const bool atEnd = instant == adapter::ContactInstant::StepEnd;
+        LiveOptions options;
+        options.stride = 10;
+        CountingWorld world(s, 0.01, instant);
+        const Trajectory t = simulate(s, 0.01, world, options).trajectory;
+        EXPECT_EQ(t.contactInstant, instant);
+        ASSERT_EQ(t.contacts.size(), 6u);
+        for (std::size_t f = 0; f < 6; ++f) {
+            const std::size_t without = atEnd ? 0 : 5;
+            ASSERT_EQ(t.contacts[f].size(), f == without ? 0u : 1u) << f;
+            if (f == without) continue;
+            EXPECT_EQ(t.contacts[f][0].depth, 10.0 * f + (atEnd ? 0.0 : 1.0)) << f;
+        }
+    }
+}
+
 /// A constant force is part of the step: the velocity after n steps is v0 + n h (g + F / m).
 TEST(Simulate, ForcesActInEveryStep) {
     auto s = load(thrownBall("ball")).first;

@@ -153,6 +153,7 @@ std::unique_ptr<Restitution<S>> makeIdle() {
     FALSE_ENTRY(in_blocks, orientationFirstOrder, orientationFirstOrder, t.inBlocks = true)
 #define COLLISION_LIARS                                                                    \
     FALSE_ENTRY(acts, makeNoContinuousCollision, makeNoContinuousCollision, t.acts = true) \
+    FALSE_ENTRY(gives_contacts, makeSpeculative, makeSpeculative, t.givesContacts = false) \
     FALSE_ENTRY(loses_rest, makeSpeculative, makeSpeculative, t.losesRest = false)
 #define RESTITUTION_LIARS                  \
     FALSE_ENTRY(bounces, makeDead, (), ()) \

@@ -76,12 +76,13 @@ function frameOf(head: FrameHead, arrays: ArrayBundle): Frame {
     orientation: doubles(arrays, `${of}orientation`),
     velocity: doubles(arrays, `${of}velocity`),
     angularVelocity: doubles(arrays, `${of}angular_velocity`),
-    contacts: staged && head.stage.in_step ? manifoldContacts(head, arrays) : contactsOf(of, arrays),
+    contacts: staged && head.stage.in_step ? manifoldContacts(head, arrays) : contactsOf(head, arrays),
     boxes: staged ? (arrays.get(`${of}boxes/sides`) as NumberArray).slice() : null,
   };
 }
 
-function contactsOf(of: string, arrays: ArrayBundle): Contacts {
+function contactsOf(head: FrameHead, arrays: ArrayBundle): Contacts {
+  const of = `${head.instance}/`;
   const bodyA = integers(arrays, `${of}contacts/body_a`);
   return {
     count: bodyA.length,
@@ -97,6 +98,8 @@ function contactsOf(of: string, arrays: ArrayBundle): Contacts {
     frictionImpulse: doubles(arrays, `${of}contacts/friction_impulse`),
     carriedA: doubles(arrays, `${of}contacts/carried_a`),
     carriedB: doubles(arrays, `${of}contacts/carried_b`),
-    instant: 'where the last step began; drawn where the bodies have carried them',
+    ...(head.contacts_at_step_end
+      ? {}
+      : { instant: 'where the last step began; drawn where the bodies have carried them' }),
   };
 }

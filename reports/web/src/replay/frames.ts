@@ -6,8 +6,9 @@
 
 /**
  * Contacts of one frame, `count` of each; vectors have three numbers a contact. They belong to the poses of the frame:
- * they are those of the step that begins there. In a live run they are those of the step that led there, and belong to
- * the poses at which that began: `carriedA` and `carriedB` are their points carried along with the bodies since.
+ * they are those of the step that begins there, or, with engines that say so, ends there. In a live run they are those of
+ * the step that led there: where they belong to the poses at which that began, `carriedA` and `carriedB` are their points
+ * carried along with the bodies since.
  */
 export interface Contacts {
   count: number;

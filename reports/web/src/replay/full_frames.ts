@@ -18,6 +18,7 @@ interface Part {
   stride: number;
   contact_stride: number;
   contact_instants: boolean; // true if contacts belong to the poses of their frames
+  contacts_at_step_end: boolean; // they are those of the step that ends there, not of the one that begins
   frames: number; // frames of the whole trajectory
   from: number;
   count: number;
@@ -116,9 +117,10 @@ function contactsOf(parts: ArrayBundle[], head: Part): ContactTable {
       table.numbers[contactColumns * next + 10] = get('normal_impulse')[i] as number;
     }
   }
-  // frames whose contacts are stored, but that have none; no step begins at the last one
-  const end = head.contact_instants ? head.frames - 1 : head.frames;
-  for (let f = 0; f < end; f += Math.max(1, head.contact_stride))
+  // frames whose contacts are stored, but that have none; no step begins at the last one, or ends at the first one
+  const start = head.contacts_at_step_end ? Math.max(1, head.contact_stride) : 0;
+  const end = head.contact_instants && !head.contacts_at_step_end ? head.frames - 1 : head.frames;
+  for (let f = start; f < end; f += Math.max(1, head.contact_stride))
     if ((table.start[f] as number) < 0) table.start[f] = 0;
   return table;
 }
