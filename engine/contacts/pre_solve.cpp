@@ -48,9 +48,6 @@ std::optional<PreSolveAnswer<S>> PreSolveCall<S>::operator()(const BodyArrays<S>
         throw EngineError("pre_solve", "a callback has set coefficients that are out of range");
     if (!contact.surfaceVelocity.allFinite())
         throw EngineError("pre_solve", "a callback has set a surface velocity that is not finite");
-    if (contact.coefficients.hasMoments() && !moments_)
-        throw EngineError("material_moments",
-                          "a callback has set rolling or torsional friction, which the solver does not have");
     return PreSolveAnswer<S>{contact.coefficients, contact.surfaceVelocity};
 }
 

@@ -58,13 +58,11 @@ template <class S>
 class PreSolveCall {
   public:
     PreSolveCall() = default;
-    /// `moments`: the world's solver has rolling and torsional friction.
-    PreSolveCall(PreSolve<S> callback, bool moments) : callback_(std::move(callback)), moments_(moments) {}
+    explicit PreSolveCall(PreSolve<S> callback) : callback_(std::move(callback)) {}
 
     explicit operator bool() const { return callback_ != nullptr; }
     /// Calls the callback for the contact of two shapes whose bodies' centres of mass are at pA and pB. Nothing: a veto.
-    /// Throws EngineError "pre_solve" where its coefficients or velocity are out of range, "material_moments" where the
-    /// solver does not have such friction.
+    /// Throws EngineError "pre_solve" where its coefficients or velocity are out of range.
     std::optional<PreSolveAnswer<S>> operator()(const BodyArrays<S>& bodies, const ShapeRecord<S>& a,
                                                 const ShapeRecord<S>& b, std::uint32_t piece,
                                                 const Manifold<S>& manifold, const typename S::Vec& pA,
@@ -73,7 +71,6 @@ class PreSolveCall {
 
   private:
     PreSolve<S> callback_;
-    bool moments_ = true;
 };
 
 }  // namespace rigor::engine

@@ -7,14 +7,13 @@
 #include "engine/pipeline/pose_check.hpp"
 #include "engine/pipeline/require.hpp"
 #include "engine/pipeline/shape_def.hpp"
-#include "engine/solvers/traits.hpp"
 #include "engine/state/sleep.hpp"
 
 namespace rigor::engine {
 namespace {
 
 template <class S>
-void checkCoefficients(const PairCoefficients<S>& c, const WorldDef<S>& def) {
+void checkCoefficients(const PairCoefficients<S>& c) {
     require(c.friction >= 0 && std::isfinite(c.friction), "material_friction",
             "friction must not be negative");
     require(c.restitution >= 0 && c.restitution <= 1, "material_restitution",
@@ -24,13 +23,6 @@ void checkCoefficients(const PairCoefficients<S>& c, const WorldDef<S>& def) {
     require(c.rollingFriction >= 0 && c.torsionalFriction >= 0 && std::isfinite(c.rollingFriction) &&
                 std::isfinite(c.torsionalFriction),
             "material_moments", "rolling and torsional friction are lengths and must not be negative");
-    if (!c.hasMoments() || solverTraits(def.solver).moments) return;
-    std::string others;
-    for (const auto& entry : solverTraitsTable())
-        if (entry.traits.moments) others += (others.empty() ? "" : ", ") + std::string(entry.name);
-    throw EngineError(
-        "material_moments",
-        "the solver " + def.solver + " has no rolling and torsional friction; these have: " + others);
 }
 
 }  // namespace
@@ -85,7 +77,7 @@ std::uint32_t World<S>::addMaterial(Real friction, Real restitution, Real static
 
 template <class S>
 std::uint32_t World<S>::addMaterial(const PairCoefficients<S>& own) {
-    checkCoefficients<S>(own, parts_.def);
+    checkCoefficients<S>(own);
     return parts_.contacts.materials().add(own);
 }
 
@@ -95,7 +87,7 @@ void World<S>::setPair(std::uint32_t materialA, std::uint32_t materialB,
     MaterialTable<S>& materials = parts_.contacts.materials();
     require(materialA < materials.size() && materialB < materials.size(), "pair_material",
             "unknown material");
-    checkCoefficients<S>(coefficients, parts_.def);
+    checkCoefficients<S>(coefficients);
     materials.setPair(materialA, materialB, coefficients);
 }
 
@@ -234,7 +226,7 @@ Velocity<S> World<S>::surfaceVelocity(ShapeId shape) const {
 
 template <class S>
 void World<S>::setPreSolve(PreSolve<S> callback) {
-    parts_.contacts.setPreSolve({std::move(callback), solverTraits(def().solver).moments});
+    parts_.contacts.setPreSolve(PreSolveCall<S>(std::move(callback)));
 }
 
 template <class S>

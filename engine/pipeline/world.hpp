@@ -45,8 +45,7 @@ class World {
         return parts_.contacts.shapes()[parts_.contacts.shapes().ids().dense(shape)].filter;
     }
     std::uint32_t addMaterial(Real friction, Real restitution, Real staticFriction = 0);
-    /// The same with rolling and torsional friction. Throws EngineError "material_moments" where the world's solver
-    /// has no rows for them (solvers/traits.hpp).
+    /// The same with rolling and torsional friction. Throws EngineError "material_moments" where these are negative.
     std::uint32_t addMaterial(const PairCoefficients<S>& own);
     /// Coefficients of two materials instead of what WorldDef's combine rules make of them (by default
     /// sqrt(mu_a mu_b) and min(e_a, e_b)).

@@ -67,7 +67,6 @@ struct SolverTraits {
     bool contactsInSingle = false;  ///< contacts are reckoned in f32 in worlds of f64, too
     bool direct = false;            ///< one iteration solves contacts without friction, however many
     StopRule stops = StopRule::Change;
-    bool moments = true;     ///< it has rolling and torsional friction (BlockKind::Moment)
     bool warmStarts = true;  ///< the impulses of the last step matter to it, where WorldDef::warmStarting
     /// The solver of islands with more contacts than WorldDef::islandContacts (pipeline/island_method.hpp);
     /// empty: all islands have this one.

@@ -14,7 +14,6 @@
 #include "engine/embedding/tests/tick.hpp"
 #include "engine/pipeline/tests/scene.hpp"
 #include "engine/shapes/surface.hpp"
-#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine::test {
 namespace {
@@ -321,26 +320,6 @@ TYPED_TEST(PreSolveCall, MayNotChangeTheWorld) {
     }
     EXPECT_EQ(world.bodyCount(), 2U);
     EXPECT_NO_THROW(changes.back()());
-}
-
-/// A solver without rolling friction refuses it from a callback as it does from a material.
-TYPED_TEST(PreSolveCall, IsHeldToWhatTheSolverHas) {
-    using S = TypeParam;
-    using R = typename S::Real;
-    for (const char* solver : {"xpbd", "pgs"}) {
-        WorldDef<S> def = earth<S>();
-        def.solver = solver;
-        World<S> world(def);
-        addGround<S>(world, kUsualMaterial);
-        addBall<S>(world, 0, 0.25, 0.25, 1, kUsualMaterial);
-        world.setPreSolve(
-            [](PreSolveContact<S>& contact) { contact.coefficients.rollingFriction = R(0.01); });
-        if (solverTraits(solver).moments)
-            EXPECT_NO_THROW(world.step(R(kTick)));
-        else
-            EXPECT_THROW(world.step(R(kTick)), EngineError);
-        EXPECT_EQ(solverTraits(solver).moments, std::string(solver) == "pgs");
-    }
 }
 
 /// A callback that changes nothing changes no bit.

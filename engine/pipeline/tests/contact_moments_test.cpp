@@ -25,11 +25,10 @@ TYPED_TEST_SUITE(Moments3d, Solids);
 
 constexpr double kStep = 1.0 / 120;
 
-/// Solvers with moments, `fast` for wide with its own settings.
-std::vector<std::string> solversWithMoments() {
+/// All solvers, `fast` for wide with its own settings.
+std::vector<std::string> solvers() {
     std::vector<std::string> names{"fast"};
-    for (const auto& entry : solverTraitsTable())
-        if (entry.traits.moments) names.emplace_back(entry.name);
+    for (const auto& entry : solverTraitsTable()) names.emplace_back(entry.name);
     return names;
 }
 template <class S>
@@ -41,9 +40,11 @@ WorldDef<S> worldWith(const std::string& solver) {
         def.solver = solver;
     return def;
 }
-/// Rounding, and what springs of contacts and few iterations leave.
+/// Rounding, and what springs of contacts and few iterations leave. `single_pass` solves friction before the moment, which
+/// friction answers in the next step: it is behind by one step.
 template <class S>
 double tolerance(const std::string& solver) {
+    if (solver == "single_pass") return 0.01;
     const SolverTraits& traits = solverTraits(solver == "fast" ? "wide" : solver);
     const bool exact = traits.errors == ErrorHandling::Correction && std::is_same_v<typename S::Real, double>;
     return exact ? 1e-5 : 4e-3;
@@ -95,7 +96,7 @@ TYPED_TEST(Moments, ARollingBallSlowsDownAndStops) {
     using B = Roller<S>;
     const double rho = 0.011;
     const double a = rho * B::mass * kGravity / B::radius / (B::mass + B::inertia / (B::radius * B::radius));
-    for (const std::string& solver : solversWithMoments()) {
+    for (const std::string& solver : solvers()) {
         Roller<S> roller(worldWith<S>(solver), pairOf<S>(0.5, rho));
         roller.roll(1);
         roller.run(1);
@@ -111,7 +112,7 @@ TYPED_TEST(Moments, ARollingBallSlowsDownAndStops) {
 
 TYPED_TEST(Moments, ABallOnASlopeStartsToRollWhereItsTangentIsRhoOverRadius) {
     using S = TypeParam;
-    for (const std::string& solver : solversWithMoments())
+    for (const std::string& solver : solvers())
         for (const double over : {0.9, 1.1}) {
             WorldDef<S> def = worldWith<S>(solver);
             def.gravity = at<S>(over * 0.05 * kGravity, -kGravity);
@@ -129,7 +130,7 @@ TYPED_TEST(Moments3d, ASpinningBallStopsByTorsionalFrictionAlone) {
     using R = typename S::Real;
     using B = Roller<S>;
     const double rho = 0.004, braking = rho * B::mass * kGravity / B::inertia;
-    for (const std::string& solver : solversWithMoments()) {
+    for (const std::string& solver : solvers()) {
         Roller<S> roller(worldWith<S>(solver), pairOf<S>(0.5, 0, rho));
         roller.world.setVelocity(roller.ball, S::Vec::Zero(), typename S::Ang(R(0), R(3), R(0)));
         roller.run(0.5);
@@ -224,23 +225,11 @@ TYPED_TEST(Moments3d, ABoxRidesOnATurningSurfaceAsOnATurningBody) {
     }
 }
 
-TYPED_TEST(Moments, SolversWithoutThemRefuseTheMaterial) {
+TYPED_TEST(Moments, NegativeOnesAreRefused) {
     using S = TypeParam;
-    for (const auto& entry : solverTraitsTable()) {
-        World<S> world(worldWith<S>(std::string(entry.name)));
-        if (entry.traits.moments) {
-            EXPECT_NO_THROW(world.addMaterial(pairOf<S>(0.5, 0.01))) << entry.name;
-            continue;
-        }
-        try {
-            world.addMaterial(pairOf<S>(0.5, 0.01));
-            ADD_FAILURE() << entry.name;
-        } catch (const EngineError& error) {
-            EXPECT_EQ(error.id(), "material_moments") << entry.name;
-        }
-    }
     World<S> world(earth<S>());
     EXPECT_THROW(world.addMaterial(pairOf<S>(0.5, -0.01)), EngineError);
+    EXPECT_THROW(world.addMaterial(pairOf<S>(0.5, 0, -0.01)), EngineError);
 }
 
 TYPED_TEST(Moments, ASnapshotHasThem) {

@@ -107,8 +107,8 @@ void AssembledProblem::readRows(const ConstraintRows<S>& rows) {
                                 static_cast<double>(block.appliedNormal)});
         } else if (block.kind == BlockKind::Moment) {
             const auto rho = static_cast<double>(block.friction);
-            contacts.push_back(
-                {block.normal, block.rows, block.first, rho, rho, static_cast<double>(block.appliedNormal)});
+            contacts.push_back({block.normal, block.rows, block.first, rho, rho,
+                                static_cast<double>(block.appliedNormal), true});
         }
     }
 }

@@ -3,7 +3,8 @@
 //
 // Direct solver: the whole step as one problem (assembled.hpp), solved by Dantzig's principal pivoting with
 // bounds (box_lcp.hpp) on the friction pyramid |lambda_t| <= mu lambda_n, each tangent by itself
-// [Baraff1994].
+// [Baraff1994]. Rolling friction is such a pyramid over the two moments about the tangents, of half edge
+// rho lambda_n; torsional friction, and rolling friction in 2D, is an interval and exact.
 //
 // The bounds of friction depend on the normals. Baraff lets them move while pivoting: the matrix is then no
 // longer symmetric, its principal minors may vanish, and the method may not end. Here each round solves the
@@ -96,7 +97,7 @@ class Dantzig final : public DirectRounds<S> {
             largest = std::max(largest, problem_.defect(i, problem_.lower[i], problem_.upper[i]));
         }
         for (const AssembledContact& contact : problem_.contacts)
-            for (std::size_t t = contact.normal + 1; t <= contact.normal + contact.tangents; ++t) {
+            for (std::size_t t = contact.first; t < contact.first + contact.tangents; ++t) {
                 const double limit =
                     coefficient(contact, t) * (problem_.lambda[contact.normal] + contact.applied);
                 largest = std::max(largest, problem_.defect(t, -limit, limit));
@@ -106,7 +107,7 @@ class Dantzig final : public DirectRounds<S> {
     void setBounds() {
         for (std::size_t c = 0; c < limits_.size(); ++c) {
             const AssembledContact& contact = problem_.contacts[c];
-            for (std::size_t t = contact.normal + 1; t <= contact.normal + contact.tangents; ++t) {
+            for (std::size_t t = contact.first; t < contact.first + contact.tangents; ++t) {
                 problem_.upper[t] = coefficient(contact, t) * limits_[c];
                 problem_.lower[t] = -problem_.upper[t];
             }
@@ -129,7 +130,7 @@ class Dantzig final : public DirectRounds<S> {
         bool slides = false;
         for (std::size_t c = 0; c < limits_.size(); ++c) {
             const AssembledContact& contact = problem_.contacts[c];
-            for (std::size_t t = contact.normal + 1; t <= contact.normal + contact.tangents; ++t) {
+            for (std::size_t t = contact.first; t < contact.first + contact.tangents; ++t) {
                 const bool inside = std::abs(x_[t]) < problem_.upper[t];
                 sticks_[t] = inside || problem_.upper[t] == 0;
                 slides = slides || !inside;
@@ -171,7 +172,7 @@ class Dantzig final : public DirectRounds<S> {
                     right_[a] -= problem_.at(i, j) * x_[j];
         }
         for (const AssembledContact& contact : problem_.contacts)
-            for (std::size_t t = contact.normal + 1; t <= contact.normal + contact.tangents; ++t) {
+            for (std::size_t t = contact.first; t < contact.first + contact.tangents; ++t) {
                 if (state[t] == BoxState::Free) continue;
                 const double mu = state[t] == BoxState::Upper ? contact.mu : -contact.mu;
                 const std::size_t normal = place_[contact.normal];
@@ -202,7 +203,7 @@ class Dantzig final : public DirectRounds<S> {
 }  // namespace
 
 SolverTraits makeDantzigTraits() {
-    return {.friction = FrictionShape::Box, .direct = true, .stops = StopRule::Residual, .moments = false};
+    return {.friction = FrictionShape::Box, .direct = true, .stops = StopRule::Residual};
 }
 
 template <class S>

@@ -10,7 +10,9 @@
 //     0 <= s         _|_  mu lambda_n - sum_k beta_k >= 0       the pyramid
 // D = 4 is the pyramid over the two tangents (inscribed in Coulomb's cone: at most his friction, between the
 // directions as little as 1/sqrt 2 of it), D = 2 the line of the slip that there would be without impulses,
-// larger even D approach the cone. In 2D D is 2 and exact.
+// larger even D approach the cone. In 2D D is 2 and exact. Rolling friction has the same form with D moments
+// about directions of the tangent plane, slack rho lambda_n - sum_k beta_k and the relative angular velocity
+// in place of the slip; torsional friction has two, about the normal, and is exact.
 //
 // Rows without bounds (joints, springs) are eliminated first, lambda_F = -W_FF^-1 (q_F + W_FC lambda_C), by
 // Cholesky on W_FF + sigma diag(W_FF); rounds of the proximal point method, as in dantzig.cpp, remove sigma
@@ -42,7 +44,7 @@ struct Variable {
     enum class Kind : std::uint8_t { Impulse, UpperMultiplier, Slip } kind = Kind::Impulse;
     std::size_t row[2] = {0, 0};
     double coefficient[2] = {0, 0};  ///< lambda_row += coefficient z
-    std::size_t of = 0;              ///< UpperMultiplier: its variable; Slip: its contact
+    std::size_t of = 0;              ///< UpperMultiplier: its variable; Slip: its AssembledContact
     double scale = 1;                ///< scale of the impulse
 };
 
@@ -159,6 +161,8 @@ class Lemke final : public DirectRounds<S> {
             variables_.push_back(y);
         }
         reduceConstant();
+        normalOf_.resize(n);
+        directionsOf_.resize(problem_.contacts.size());
         for (std::size_t c = 0; c < problem_.contacts.size(); ++c) addContact(input, c);
     }
     /// reduced_ = q of the problem without free rows, at the offsets.
@@ -176,37 +180,44 @@ class Lemke final : public DirectRounds<S> {
                 if (offset_[j] != 0) reduced_[i] += R_[i * n + j] * offset_[j];
         }
     }
+    /// Row whose mobility is the unit of the impulses of a contact's friction: the normal; of moments the first of them.
+    static std::size_t unitRow(const AssembledContact& contact) {
+        return contact.moment ? contact.first : contact.normal;
+    }
     void addContact(const SolverInput<S>& input, std::size_t c) {
         const AssembledContact& contact = problem_.contacts[c];
-        const std::size_t n = contact.normal;
-        Variable v;
-        v.scale = 1 / std::sqrt(problem_.at(n, n));
-        v.row[0] = n;
-        v.coefficient[0] = v.scale;
-        firstOf_.resize(problem_.contacts.size());
-        firstOf_[c] = variables_.size();
-        variables_.push_back(v);
+        const std::size_t first = contact.first;
+        const double scale = 1 / std::sqrt(problem_.at(unitRow(contact), unitRow(contact)));
+        if (!contact.moment) {
+            Variable v;
+            v.scale = scale;
+            v.row[0] = contact.normal;
+            v.coefficient[0] = scale;
+            normalOf_[contact.normal] = variables_.size();
+            variables_.push_back(v);
+        }
+        directionsOf_[c] = variables_.size();
         if (contact.tangents == 0) return;
         const int directions = contact.tangents == 1 ? 2 : input.pyramidDirections;
         double start = 0;
         if (contact.tangents == 2 && directions == 2)
-            start = portable::atan2(problem_.q[n + 2], problem_.q[n + 1]);
+            start = portable::atan2(problem_.q[first + 1], problem_.q[first]);
         for (int k = 0; k < directions; ++k) {
             const Rot2<double> direction = expMap(start + 6.283185307179586 * k / directions);
             Variable beta;
-            beta.scale = v.scale;
-            beta.row[0] = n + 1;
-            beta.coefficient[0] = v.scale * direction.c;
+            beta.scale = scale;
+            beta.row[0] = first;
+            beta.coefficient[0] = scale * direction.c;
             if (contact.tangents == 2) {
-                beta.row[1] = n + 2;
-                beta.coefficient[1] = v.scale * direction.s;
+                beta.row[1] = first + 1;
+                beta.coefficient[1] = scale * direction.s;
             }
             variables_.push_back(beta);
         }
         Variable slip;
         slip.kind = Variable::Kind::Slip;
         slip.of = c;
-        slip.scale = v.scale;
+        slip.scale = scale;
         variables_.push_back(slip);
     }
     void makeMatrix() {
@@ -223,9 +234,10 @@ class Lemke final : public DirectRounds<S> {
             } else if (x.kind == Variable::Kind::Slip) {
                 const AssembledContact& contact = problem_.contacts[x.of];
                 const double mu = slips_[x.of] ? contact.mu : contact.muStatic;
-                M_[a * N + firstOf_[x.of]] = mu;
+                const std::size_t normal = normalOf_[contact.normal];
+                M_[a * N + normal] = contact.moment ? mu * variables_[normal].scale / x.scale : mu;
                 constant_[a] = mu * contact.applied / x.scale;
-                for (std::size_t b = firstOf_[x.of] + 1; b < a; ++b) {
+                for (std::size_t b = directionsOf_[x.of]; b < a; ++b) {
                     M_[a * N + b] = -1;
                     M_[b * N + a] = 1;
                 }
@@ -279,9 +291,9 @@ class Lemke final : public DirectRounds<S> {
     /// (d_k . w_t + s) and s times the slack of the pyramid, as velocities.
     double frictionResidual(std::size_t c) const {
         const AssembledContact& contact = problem_.contacts[c];
-        const std::size_t n = contact.normal, first = firstOf_[c] + 1;
-        double w[2] = {problem_.velocity(n + 1, problem_.lambda), 0};
-        if (contact.tangents == 2) w[1] = problem_.velocity(n + 2, problem_.lambda);
+        const std::size_t first = directionsOf_[c];
+        double w[2] = {problem_.velocity(contact.first, problem_.lambda), 0};
+        if (contact.tangents == 2) w[1] = problem_.velocity(contact.first + 1, problem_.lambda);
         double slip = 0, sum = 0, largest = 0;
         const auto along = [&](std::size_t a) {
             const Variable& v = variables_[a];
@@ -292,7 +304,8 @@ class Lemke final : public DirectRounds<S> {
             slip = std::max(slip, -along(end));
             sum += variables_[end].scale * z_[end];
         }
-        const double K = problem_.at(n, n), pressed = problem_.lambda[n] + contact.applied;
+        const double K = problem_.at(unitRow(contact), unitRow(contact));
+        const double pressed = problem_.lambda[contact.normal] + contact.applied;
         for (std::size_t a = first; a < end; ++a)
             largest = std::max(largest, std::min(along(a) + slip, K * variables_[a].scale * z_[a]));
         const double mu = slips_[c] ? contact.mu : contact.muStatic;
@@ -309,7 +322,7 @@ class Lemke final : public DirectRounds<S> {
                 if (problem_.kind[i] != RowKind::Tangent)
                     x_[i] = problem_.relaxed(i, x_, problem_.lower[i], problem_.upper[i]);
             for (const AssembledContact& contact : problem_.contacts)
-                for (std::size_t t = contact.normal + 1; t <= contact.normal + contact.tangents; ++t) {
+                for (std::size_t t = contact.first; t < contact.first + contact.tangents; ++t) {
                     const double limit = contact.mu * (x_[contact.normal] + contact.applied);
                     x_[t] = problem_.relaxed(t, x_, -limit, limit);
                 }
@@ -321,15 +334,15 @@ class Lemke final : public DirectRounds<S> {
     GrowingCholesky free_;  ///< W of the rows without bounds
     std::vector<double> shift_, q_, R_, response_, column_, reduced_, offset_, M_, constant_, z_;
     std::vector<Variable> variables_;
-    std::vector<std::size_t> firstOf_;
+    std::vector<std::size_t> normalOf_;      ///< variable of each normal row
+    std::vector<std::size_t> directionsOf_;  ///< first of the directions of each AssembledContact
     std::vector<std::uint8_t> slips_;
 };
 
 }  // namespace
 
 SolverTraits makeLemkeTraits() {
-    return {
-        .friction = FrictionShape::Polygon, .direct = true, .stops = StopRule::Residual, .moments = false};
+    return {.friction = FrictionShape::Polygon, .direct = true, .stops = StopRule::Residual};
 }
 
 template <class S>

@@ -61,8 +61,7 @@ double velocity(const AssembledProblem& p, const std::vector<double>& lambda, st
 
 bool ContactInterior::fits(const AssembledProblem& problem) {
     return std::all_of(problem.contacts.begin(), problem.contacts.end(), [](const AssembledContact& contact) {
-        return !(contact.applied > 0) && !(contact.muStatic > contact.mu) &&
-               contact.first == contact.normal + 1;
+        return !(contact.applied > 0) && !(contact.muStatic > contact.mu) && !contact.moment;
     });
 }
 

@@ -7,6 +7,7 @@
 //     joint     lambda = -(J v + bias) / K
 //     contact   lambda_n = -(J_n v + bias) / K_nn   where that is > 0, else no impulse
 //               lambda_t along the slip, |lambda_t| <= mu lambda_n
+//     moment    lambda_m against the rolling or the spin, |lambda_m| <= rho lambda_n
 // No matrix, no warm start, no memory: more passes (velocity_iterations) apply more such impulses, each
 // clamped on its own. Overlap is left to the position correction chosen beside it.
 //
@@ -30,7 +31,7 @@
 namespace rigor::engine {
 
 SolverTraits makeSinglePassTraits() {
-    return {.iterations = 1, .moments = false, .warmStarts = false};
+    return {.iterations = 1, .warmStarts = false};
 }
 
 namespace {
@@ -50,14 +51,17 @@ class SinglePass final : public Solver<S> {
         if (!input.warmStarted)
             for (Row<S>& row : input.constraints.rows) row.impulse = 0;
         sweeps_.begin(input);
+        normals_.resize(input.constraints.rows.size());
         for (int pass = 0; pass < input.iterations; ++pass) {
             input.monitor.before(input.velocities);
+            std::fill(normals_.begin(), normals_.end(), Real(0));
             const Real change = sweeps_.largest([&](std::size_t k) {
                 const Block<S>& block = input.constraints.blocks[k];
                 Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
-                return block.kind == BlockKind::Contact ? solveContact(input, block, a, b)
-                       : block.kind == BlockKind::Joint ? solveJointRows(input, block, a, b)
-                                                        : solveBounded(input, block, a, b);
+                return block.kind == BlockKind::Contact  ? solveContact(input, block, a, b)
+                       : block.kind == BlockKind::Joint  ? solveJointRows(input, block, a, b)
+                       : block.kind == BlockKind::Moment ? solveMoment(input, block, a, b)
+                                                         : solveBounded(input, block, a, b);
             });
             if (input.monitor.after(input.velocities, change)) break;
         }
@@ -74,13 +78,13 @@ class SinglePass final : public Solver<S> {
         return row.invK > 0 ? std::abs(lambda) / row.invK : Real(0);
     }
 
-    static Real solveContact(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
-                             Velocity<S>& b) {
+    Real solveContact(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a, Velocity<S>& b) {
         Row<S>* rows = input.constraints.rows.data() + block.first;
         const Real error = rowVelocity<S>(rows[0], a, b) + rows[0].bias;
         if (!(error < 0)) return 0;
         const Real lambda = -rows[0].invK * error;
         rows[0].impulse += lambda;
+        normals_[block.first] = lambda;
         applyRowImpulse<S>(rows[0], block, lambda, a, b);
         if (block.rows > 1) solveFriction(input, block, rows, lambda, a, b);
         return -error;
@@ -100,7 +104,28 @@ class SinglePass final : public Solver<S> {
         }
     }
 
+    /// Solves rolling or torsional friction, limited by the normal impulse of its contact in this pass.
+    Real solveMoment(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                     Velocity<S>& b) const {
+        using Vec2 = Eigen::Matrix<Real, 2, 1>;
+        const Real normal = normals_[block.normal];
+        if (!(normal > 0)) return 0;
+        Row<S>* rows = input.constraints.rows.data() + block.first;
+        Vec2 velocity = Vec2::Zero();
+        for (int i = 0; i < block.rows; ++i) velocity[i] = rowVelocity<S>(rows[i], a, b) + rows[i].bias;
+        const Vec2 lambda = frictionCone<Real>(block.k11, block.k12, block.k22, Vec2::Zero(), velocity,
+                                               block.friction * (normal + block.appliedNormal));
+        Real change = 0;
+        for (int i = 0; i < block.rows; ++i) {
+            rows[i].impulse += lambda[i];
+            applyRowImpulse<S>(rows[i], block, lambda[i], a, b);
+            change = std::max(change, std::abs(lambda[i]) / rows[i].invK);
+        }
+        return change;
+    }
+
     BlockSweeps<S> sweeps_;
+    std::vector<Real> normals_;  ///< impulse of each normal row in this pass
 };
 
 }  // namespace

@@ -12,9 +12,11 @@
 //               velocity solvers, dx being the motion in this sub-step
 //     contacts  C = separation, lambda >= 0; static friction C = J_t dx as far as the friction law goes with
 //               the limit mu lambda_n                                        [section 3.5]
+//     moments   C = J_m dx, the rolling or spinning of this sub-step, as far as rho lambda_n goes
 //     velocity pass [section 3.6]: the normal velocity of contacts with lambda_n > 0 becomes e times the
 //               approach, or 0, which takes out what pushing overlap apart has added; sliding friction up to
-//               mu lambda_n / h; motors within their force; speed out of a limit to 0.
+//               mu lambda_n / h; moments up to rho lambda_n / h; motors within their force; speed out
+//               of a limit to 0.
 // Deviations: static friction goes up to its limit instead of all or nothing, and the velocity pass counts
 // what positions have used, so that the world's friction law holds over both. Normals go before all friction:
 // visiting corner by corner, friction holds on to the rotation that the first corner's normal has made and
@@ -33,11 +35,7 @@
 namespace rigor::engine {
 
 SolverTraits makeXpbdTraits() {
-    return {.substeps = 20,
-            .iterations = 1,
-            .errors = ErrorHandling::Positions,
-            .moments = false,
-            .warmStarts = false};
+    return {.substeps = 20, .iterations = 1, .errors = ErrorHandling::Positions, .warmStarts = false};
 }
 
 namespace {
@@ -63,6 +61,9 @@ class Xpbd final : public Solver<S> {
                 change = std::max(change, solveNormal(problem, c, input));
             for (std::size_t c = 0; c < problem.contactCount(); ++c)
                 change = std::max(change, solveSlip(problem, c, input));
+            for (const Block<S>& block : input.constraints.blocks)
+                if (block.kind == BlockKind::Moment)
+                    change = std::max(change, solveTurn(problem, block, input));
             problem.applyRotations();
             if (input.monitor.after(input.velocities, change / input.h)) break;
         }
@@ -83,13 +84,15 @@ class Xpbd final : public Solver<S> {
                     change = std::max(change, solveBoundedRow(input, block, a, b));
                     continue;
                 }
-                change = std::max(change, bounce(input.constraints.rows[block.first], block, a, b));
+                if (block.kind != BlockKind::Moment)
+                    change = std::max(change, bounce(input.constraints.rows[block.first], block, a, b));
             }
             for (std::size_t k = 0; k < active_.size(); ++k) {
                 const Block<S>& block = input.constraints.blocks[k];
-                if (active_[k] && block.kind == BlockKind::Contact)
-                    change = std::max(change, solveFriction(input, block, input.velocities[block.a],
-                                                            input.velocities[block.b]));
+                if (!active_[k] || !isOfContact(block.kind)) continue;
+                Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
+                change = std::max(change, block.kind == BlockKind::Contact ? solveFriction(input, block, a, b)
+                                                                           : solveMoment(input, block, a, b));
             }
             if (i == 0) first = change;
             if (input.monitor.after(input.velocities, change) || change <= kSweepTolerance * first) break;
@@ -182,6 +185,23 @@ class Xpbd final : public Solver<S> {
         return removed;
     }
 
+    /// Rolling or torsional friction: the relative rotation of this sub-step back, as far as its bound goes.
+    static Real solveTurn(PositionProblem<S>& problem, const Block<S>& block, const SolverInput<S>& input) {
+        const Real bound = block.friction * input.constraints.rows[block.normal].impulse;
+        if (!(bound > 0)) return 0;
+        Row<S>* rows = input.constraints.rows.data() + block.first;
+        Vec2 lambda = Vec2::Zero(), turn = Vec2::Zero();
+        for (int i = 0; i < block.rows; ++i) {
+            lambda[i] = rows[i].impulse;
+            turn[i] = problem.moved(block, rows[i]) + input.h * rows[i].bias;
+        }
+        const Vec2 next = frictionCone<Real>(block.k11, block.k12, block.k22, lambda, turn, bound);
+        Real removed = 0;
+        for (int i = 0; i < block.rows; ++i)
+            removed = std::max(removed, moveTo(problem, block, rows[i], rows[i], next[i]));
+        return removed;
+    }
+
     /// Finds the blocks that take part in the velocity pass: contacts and limits that have pushed, motors.
     void findActive(const ConstraintRows<S>& constraints) {
         active_.resize(constraints.blocks.size());
@@ -189,7 +209,8 @@ class Xpbd final : public Solver<S> {
             const Block<S>& block = constraints.blocks[k];
             const Row<S>& row = constraints.rows[block.first];
             const bool motor = block.kind == BlockKind::Bounded && !isLimit(row) && !isSpring(row);
-            active_[k] = motor || (block.kind != BlockKind::Joint && !isSpring(row) && row.impulse > 0);
+            const Row<S>& pushing = block.kind == BlockKind::Moment ? constraints.rows[block.normal] : row;
+            active_[k] = motor || (block.kind != BlockKind::Joint && !isSpring(row) && pushing.impulse > 0);
         }
     }
 
