@@ -9,8 +9,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "engine/core/check.hpp"
-
 namespace rigor::engine {
 
 /// Index that refers to no element of an array.
@@ -24,10 +22,34 @@ struct Id {
     explicit operator bool() const { return index != 0; }
     friend bool operator==(const Id&, const Id&) = default;
 };
-using BodyId = Id<struct BodyTag>;
-using ShapeId = Id<struct ShapeTag>;
-using JointId = Id<struct JointTag>;
-using ForceId = Id<struct ForceTag>;
+struct BodyTag {
+    static constexpr const char* kName = "body";
+};
+struct ShapeTag {
+    static constexpr const char* kName = "shape";
+};
+struct JointTag {
+    static constexpr const char* kName = "joint";
+};
+struct ForceTag {
+    static constexpr const char* kName = "force";
+};
+using BodyId = Id<BodyTag>;
+using ShapeId = Id<ShapeTag>;
+using JointId = Id<JointTag>;
+using ForceId = Id<ForceTag>;
+
+/// A handle that names nothing in a table, and what the table has in its slot.
+struct UnknownHandle {
+    const char* kind;
+    std::uint32_t index, generation;
+    std::uint32_t slots;           ///< slots of the table, with that of "none"
+    std::uint32_t slotGeneration;  ///< generation that the slot is at; 0 where there is no such slot
+    bool taken;                    ///< another object has the slot
+};
+/// Throws EngineError "null_handle" for index 0, else "stale_handle": the message says which handle it is, and whether
+/// its object was removed or never was in this world.
+[[noreturn]] void throwUnknownHandle(const UnknownHandle& handle);
 
 /// Handle -> dense index. The order of the free list is part of the state: two copies give out equal handles.
 template <class Tag>
@@ -51,16 +73,17 @@ class IdTable {
         return id.index != 0 && id.index < slots_.size() && slots_[id.index].alive &&
                slots_[id.index].generation == id.generation;
     }
+    /// Throws EngineError "null_handle" or "stale_handle" where contains() is false; so do move() and remove().
     std::uint32_t dense(Id<Tag> id) const {
-        RIGOR_CHECK(contains(id), "stale or foreign handle");
+        requireKnown(id);
         return slots_[id.index].dense;
     }
     void move(Id<Tag> id, std::uint32_t dense) {
-        RIGOR_CHECK(contains(id), "stale or foreign handle");
+        requireKnown(id);
         slots_[id.index].dense = dense;
     }
     void remove(Id<Tag> id) {
-        RIGOR_CHECK(contains(id), "stale or foreign handle");
+        requireKnown(id);
         Slot& slot = slots_[id.index];
         slot.alive = false;
         ++slot.generation;
@@ -91,6 +114,14 @@ class IdTable {
     }
 
   private:
+    void requireKnown(Id<Tag> id) const {
+        if (contains(id)) [[likely]]
+            return;
+        const bool exists = id.index < slots_.size();
+        const Slot slot = exists ? slots_[id.index] : Slot{};
+        throwUnknownHandle({Tag::kName, id.index, id.generation, static_cast<std::uint32_t>(slots_.size()),
+                            slot.generation, slot.alive});
+    }
     template <class F>
     void visitSlots(F f) {
         f(slots_, freeHead_);

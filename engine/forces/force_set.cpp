@@ -39,9 +39,6 @@ ForceId ForceSet<S>::add(const ForceDef<S>& def, const BodyArrays<S>& bodies,
             };
         },
         def);
-    for (const BodyId id : {ends.a, ends.b})
-        if (id && !bodyIds.contains(id))
-            throw EngineError("force_body", "a force on a body that is not there");
     Record record;
     record.def = def;
     ForcePlace<S>& place = record.place;

@@ -19,7 +19,8 @@ class ForceSet {
         ForceId id;
     };
 
-    /// Throws EngineError for values out of range, stale bodies and forces that push no dynamic body.
+    /// Throws EngineError for values out of range and forces that push no dynamic body; "stale_handle" for bodies that
+    /// are gone.
     ForceId add(const ForceDef<S>& def, const BodyArrays<S>& bodies, const IdTable<BodyTag>& bodyIds);
     void remove(ForceId id);
     /// Removes the forces of body `gone`, whose dense index body `last` takes.

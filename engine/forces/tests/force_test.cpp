@@ -177,7 +177,7 @@ TYPED_TEST(Forces, BadOnesAreRefusedByName) {
     EXPECT_EQ(refused(QuadraticDrag<S>{body, R(-1)}), "drag_coefficient");
     EXPECT_EQ(refused(LinearDrag<S>{ground, R(1)}), "force_body");
     EXPECT_EQ(refused(LinearDrag<S>{BodyId{}, R(1)}), "force_body");
-    EXPECT_EQ(refused(LinearDrag<S>{BodyId{77, 0}, R(1)}), "force_body");
+    EXPECT_EQ(refused(LinearDrag<S>{BodyId{77, 0}, R(1)}), "stale_handle");
     ConstantForce<S> force;
     force.body = body;
     force.force = at<S>(nan, 0);
