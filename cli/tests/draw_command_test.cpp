@@ -74,6 +74,17 @@ TEST(DrawCommand, ShowsWhereTheBodiesAreAtThatTime) {
     EXPECT_EQ(count(begin.out, "class=\"outline\""), count(later.out, "class=\"outline\""));
 }
 
+/// Boxes and islands are those of the engine where it shows them, else the least boxes and the islands of contacts.
+TEST(DrawCommand, DrawsBoxesAndIslandsOfAnyEngine) {
+    for (const std::string engine : {"rigor", "box2d"}) {
+        const auto drawn = rigor("draw box_stack_2d --at 0.5 --show box,island --engine " + engine, false);
+        ASSERT_EQ(drawn.code, 0) << drawn.out;
+        EXPECT_GE(count(drawn.out, "class=\"box\""), 40u) << "ten boxes of four edges, by " << engine;
+        EXPECT_EQ(count(drawn.out, "class=\"island\""), 10u) << "one island, by " << engine;
+        EXPECT_EQ(count(drawn.out, "class=\"outline\""), 0u);
+    }
+}
+
 TEST(DrawCommand, SaysWhatItDoesNotTake) {
     const auto kind = rigor("draw box_stack_2d --show outlines");
     EXPECT_EQ(kind.code, 2);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/scene_lines.hpp"
+#include "cli/view/frame_lines.hpp"
 #include "reports/page/web_assets.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/runner/describe.hpp"
@@ -15,7 +17,7 @@ namespace {
 using validation::CommandError;
 using Json = nlohmann::json;
 
-constexpr int kMostWaiting = 8;  ///< limit that leavesthreads for commands
+constexpr int kMostWaiting = 8;  ///< limit that leaves threads for commands
 constexpr double kLongestWait = 20.0;
 
 constexpr const char* kPage =
@@ -76,15 +78,38 @@ Reply LiveSite::frames(const Request& request) {
     const auto after = static_cast<std::uint64_t>(request.number("after", 0, 0, 9e15));
     double wait = request.number("wait", 0, 0, kLongestWait);
     if (++waiting_ > kMostWaiting) wait = 0.0;
-    std::string bytes;
+    validation::Packet packet;
     try {
-        bytes = session_.frames(after, wait);
+        packet = session_.frames(after, wait);
     } catch (...) {
         --waiting_;
         throw;
     }
     --waiting_;
-    return {200, "application/octet-stream", std::move(bytes)};
+    if (const auto lines = request.query.find("lines"); lines != request.query.end())
+        addLines(packet, lines->second);
+    return {200, "application/octet-stream", packet.encode()};
+}
+
+void LiveSite::addLines(validation::Packet& packet, const std::string& list) {
+    const std::set<engine::DebugKind> kinds =
+        list.empty() ? std::set<engine::DebugKind>{} : cli::kindsOf(list, "lines");
+    packet.header["line_kinds"] = lineKinds();
+    const std::lock_guard lock(drawing_);
+    std::erase_if(scenarios_, [&](const auto& known) {
+        return std::none_of(packet.header["session"]["instances"].begin(),
+                            packet.header["session"]["instances"].end(),
+                            [&](const Json& instance) { return instance["id"] == known.first; });
+    });
+    for (const Json& head : packet.header["frames"]) {
+        const int id = head.at("instance");
+        if (!scenarios_.contains(id)) {
+            std::optional<scenario::Scenario> runs = session_.scenarioOf(id);
+            if (!runs) continue;  // it has just been removed
+            scenarios_.emplace(id, std::move(*runs));
+        }
+        view::addLines(packet, head, scenarios_.at(id), kinds);
+    }
 }
 
 Reply LiveSite::command(const Request& request) {

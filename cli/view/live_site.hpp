@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <string>
 
@@ -15,7 +16,8 @@
 namespace rigor::view {
 
 /// GET  /, /live.js, /live.css   the page
-/// GET  /api/frames?after=N&wait=S   validation/live/README.md; waits for news at most S seconds
+/// GET  /api/frames?after=N&wait=S&lines=LIST   validation/live/README.md; waits for news at most S seconds; with the
+///                               lines of these kinds (frame_lines.hpp)
 /// GET  /api/scene?instance=N    the scenario of an instance, and how its engine was set up
 /// GET  /api/engines             engines with all options and their values
 /// GET  /api/scenarios           names and titles of the library
@@ -29,12 +31,15 @@ class LiveSite final : public Site {
 
   private:
     Reply frames(const Request& request);
+    void addLines(validation::Packet& packet, const std::string& list);
     Reply command(const Request& request);
     Reply engines();
 
     validation::Session& session_;
     std::filesystem::path binary_;
     std::atomic<int> waiting_{0};
+    std::mutex drawing_;
+    std::map<int, scenario::Scenario> scenarios_;  ///< of the instances that lines have been drawn of
     std::mutex describing_;
     std::string engines_;  ///< once they have been queried
 };

@@ -13,21 +13,6 @@ typename S::Vec centerOf(const World<S>& world, BodyId body) {
 }
 
 template <class S>
-void drawBox(const Aabb<S>& box, BodyId body, LineSink<S>& sink) {
-    using Vec = typename S::Vec;
-    if (!box.min.allFinite() || !box.max.allFinite()) return;
-    const auto corner = [&](int signs) {
-        Vec v = box.min;
-        for (int i = 0; i < S::dim; ++i)
-            if ((signs >> i & 1) != 0) v[i] = box.max[i];
-        return v;
-    };
-    for (int signs = 0; signs < 1 << S::dim; ++signs)
-        for (int i = 0; i < S::dim; ++i)
-            if ((signs >> i & 1) == 0) sink.line(corner(signs), corner(signs | 1 << i), DebugKind::Box, body);
-}
-
-template <class S>
 void drawShapes(const World<S>& world, const DebugOptions<S>& options, LineSink<S>& sink) {
     const auto shapes = world.shapes();
     const auto boxes = world.boxes();
@@ -70,7 +55,7 @@ void drawJoints(const World<S>& world, LineSink<S>& sink) {
             sink.line(centerOf(world, joint.bodyA), joint.anchorA, DebugKind::Joint, joint.bodyA);
         if (joint.bodyB)
             sink.line(centerOf(world, joint.bodyB), joint.anchorB, DebugKind::Joint, joint.bodyB);
-        sink.point(joint.anchorA, DebugKind::Joint, joint.bodyA);
+        drawAnchors<S>(joint.anchorA, joint.anchorB, joint.bodyA, joint.bodyB, sink);
     }
 }
 
@@ -98,6 +83,28 @@ const char* debugKindName(DebugKind kind) {
     static constexpr const char* names[kDebugKinds] = {"outline", "box",      "contact", "normal",
                                                        "impulse", "velocity", "joint",   "island"};
     return names[static_cast<std::size_t>(kind)];
+}
+
+template <class S>
+void drawBox(const Aabb<S>& box, BodyId body, LineSink<S>& sink) {
+    using Vec = typename S::Vec;
+    if (!box.min.allFinite() || !box.max.allFinite()) return;
+    const auto corner = [&](int signs) {
+        Vec v = box.min;
+        for (int i = 0; i < S::dim; ++i)
+            if ((signs >> i & 1) != 0) v[i] = box.max[i];
+        return v;
+    };
+    for (int signs = 0; signs < 1 << S::dim; ++signs)
+        for (int i = 0; i < S::dim; ++i)
+            if ((signs >> i & 1) == 0) sink.line(corner(signs), corner(signs | 1 << i), DebugKind::Box, body);
+}
+
+template <class S>
+void drawAnchors(const typename S::Vec& anchorA, const typename S::Vec& anchorB, BodyId bodyA, BodyId bodyB,
+                 LineSink<S>& sink) {
+    sink.point(anchorA, DebugKind::Joint, bodyA);
+    if (anchorA != anchorB) sink.line(anchorA, anchorB, DebugKind::Joint, bodyB);
 }
 
 template <class S>
@@ -132,6 +139,8 @@ void drawWorld(const World<S>& world, const DebugOptions<S>& options, LineSink<S
                                  const DebugOptions<S>&, LineSink<S>&);                         \
     template void drawVelocity<S>(const S::Vec&, const S::Vec&, BodyId, const DebugOptions<S>&, \
                                   LineSink<S>&);                                                \
+    template void drawBox<S>(const Aabb<S>&, BodyId, LineSink<S>&);                             \
+    template void drawAnchors<S>(const S::Vec&, const S::Vec&, BodyId, BodyId, LineSink<S>&);   \
     template void drawWorld<S>(const World<S>&, const DebugOptions<S>&, LineSink<S>&);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

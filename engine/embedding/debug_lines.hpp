@@ -10,7 +10,7 @@
 //     Normal     normals at those points, from A to B, of one length
 //     Impulse    impulses on B at those points, of a length in proportion
 //     Velocity   velocities of the centres of mass, of a length in proportion
-//     Joint      from each body's centre of mass to the joint's anchor on it
+//     Joint      from each body's centre of mass to the joint's anchor on it, and between the anchors where they are apart
 //     Island     from the centre of mass of each body to that of its island
 //
 // The body that a line belongs to lets a sink colour it.
@@ -61,6 +61,14 @@ void drawContact(const typename S::Vec& at, const typename S::Vec& normal, const
 template <class S>
 void drawVelocity(const typename S::Vec& center, const typename S::Vec& velocity, BodyId body,
                   const DebugOptions<S>& options, LineSink<S>& sink);
+
+/// The edges of a box; nothing for one without end.
+template <class S>
+void drawBox(const Aabb<S>& box, BodyId body, LineSink<S>& sink);
+/// The anchors of a joint on its bodies: a point, and a line between them where they are apart.
+template <class S>
+void drawAnchors(const typename S::Vec& anchorA, const typename S::Vec& anchorB, BodyId bodyA, BodyId bodyB,
+                 LineSink<S>& sink);
 
 /// The outline of one shape.
 template <class S>

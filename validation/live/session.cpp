@@ -161,7 +161,7 @@ json Session::state() {
             {"instances", std::move(instances)}};
 }
 
-std::string Session::frames(std::uint64_t after, double seconds) {
+Packet Session::frames(std::uint64_t after, double seconds) {
     const auto deadline =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     Packet packet;
@@ -182,21 +182,31 @@ std::string Session::frames(std::uint64_t after, double seconds) {
         }
         packet.header["frames"] = std::move(frames);
     }
-    return packet.encode();
+    return packet;
+}
+
+std::optional<scenario::Scenario> Session::scenarioOf(int id) {
+    std::string text;
+    {
+        const std::lock_guard lock(clock_.mutex);
+        const InstanceSlot* instance = find(id);
+        if (instance == nullptr) return std::nullopt;
+        text = instance->plan.text;
+    }
+    return scenario::loadScenarioText(text, "scenario").scenario;
 }
 
 json Session::scene(int id) {
-    std::string text;
+    const std::optional<scenario::Scenario> runs = scenarioOf(id);
     json description;
     {
         const std::lock_guard lock(clock_.mutex);
         const InstanceSlot* instance = find(id);
-        if (instance == nullptr) return nullptr;
-        text = instance->plan.text;
+        if (instance == nullptr || !runs) return nullptr;
         description = instance->description();
     }
-    const scenario::Scenario s = scenario::loadScenarioText(text, "scenario").scenario;
-    return {{"scenario", json::parse(scenario::scenarioText(s))}, {"description", std::move(description)}};
+    return {{"scenario", json::parse(scenario::scenarioText(*runs))},
+            {"description", std::move(description)}};
 }
 
 std::size_t Session::keptBytes() {

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -15,6 +16,7 @@
 
 #include "engine/embedding/frame_clock.hpp"
 #include "validation/live/instance_slot.hpp"
+#include "validation/live/packet.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace rigor::validation {
@@ -48,10 +50,12 @@ class Session {
     /// Executes {"command": ..., ...}; returns its response. Throws CommandError.
     nlohmann::json command(const nlohmann::json& request);
 
-    /// All that is newer than `after`, as an encoded packet: the session's state and the last frame of every
-    /// instance that has a newer one. Waits for it at most `seconds`; then without instances.
-    std::string frames(std::uint64_t after, double seconds);
+    /// All that is newer than `after`: the session's state and the last frame of every instance that has a newer one.
+    /// Waits for it at most `seconds`; then without instances.
+    Packet frames(std::uint64_t after, double seconds);
 
+    /// The scenario that an instance runs, which never changes; nothing: no such instance.
+    std::optional<scenario::Scenario> scenarioOf(int instance);
     /// {"scenario": what the instance runs with everything said in full, to draw it from, "description": how
     /// its engine was set up}; null: no such instance.
     nlohmann::json scene(int instance);

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "cli/tests/program.hpp"
 #include "cli/view/tests/http.hpp"
@@ -144,6 +145,61 @@ TEST_F(View, LiveFromTheLinkToCtrlC) {
     EXPECT_EQ(instances.size(), 2u);
     EXPECT_EQ(program.end(SIGINT), 0);
     for (const pid_t pid : instances) EXPECT_NE(kill(pid, 0), 0) << "an instance outlived the program";
+}
+
+/// Lines of the debug drawing come with the frames of every engine: arrows of the velocities, normals and impulses that
+/// the frame has, at the middle of the contact's points.
+TEST_F(View, FramesComeWithTheirLines) {
+    Program program({"view", "box_stack_2d", "--engines", "rigor,box2d", "--json", "--save-to",
+                     scratch_.path().string()});
+    Browser browser(program.url());
+    instancesAt(browser, 0);
+    browser.command({{"command", "step"}, {"steps", 12}});
+    instancesAt(browser, 12);
+    EXPECT_EQ(browser.get("/api/frames?after=0&lines=contact,normals")->status, 400);
+    const auto answer = browser.get("/api/frames?after=0&lines=contact,normal,velocity,impulse,box,island");
+    ASSERT_EQ(answer->status, 200);
+    const Packet frames = Packet::decode(answer->body);
+    const std::vector<std::string> kinds = frames.header["line_kinds"];
+    const auto has = [&](const std::string& name) { return frames.arrays.doubles(name); };
+    for (const std::string of : {"0/", "1/"}) {
+        const auto ends = has(of + "lines/ends"), a = has(of + "contacts/carried_a"),
+                   b = has(of + "contacts/carried_b"), normal = has(of + "contacts/normal"),
+                   impulse = has(of + "contacts/normal_impulse"),
+                   friction = has(of + "contacts/friction_impulse"), velocity = has(of + "velocity"),
+                   position = has(of + "position");
+        const auto names = frames.arrays.integers(of + "lines/names");
+        ASSERT_FALSE(normal.empty());
+        ASSERT_EQ(names.size(), ends.size() / 3);
+        std::map<std::string, std::size_t> count;
+        for (std::size_t i = 0; 2 * i < names.size(); ++i) {
+            const std::string kind = kinds[static_cast<std::size_t>(names[2 * i])];
+            const std::size_t k = count[kind]++, body = static_cast<std::size_t>(names[2 * i + 1]);
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                const double from = ends[6 * i + axis], way = ends[6 * i + 3 + axis] - from;
+                const std::size_t c = 3 * k + axis;
+                if (kind == "normal") {
+                    EXPECT_NEAR(from, 0.5 * (a[c] + b[c]), 1e-12);
+                    EXPECT_NEAR(way, normal[c], 1e-12);
+                } else if (kind == "velocity") {
+                    EXPECT_NEAR(from, position[3 * body + axis], 1e-12);
+                    EXPECT_NEAR(way, velocity[3 * body + axis], 1e-12);
+                }
+            }
+            if (kind != "impulse") continue;
+            const std::size_t c = 3 * (count["normal"] - 1);  // that of the normal before
+            for (std::size_t axis = 0; axis < 2; ++axis)
+                EXPECT_NEAR(ends[6 * i + 3 + axis] - ends[6 * i + axis],
+                            impulse[c / 3] * normal[c + axis] + friction[c + axis], 1e-9);
+        }
+        EXPECT_EQ(count["normal"], normal.size() / 3) << of;
+        EXPECT_GT(count["impulse"], 0u) << of;
+        EXPECT_EQ(frames.arrays.doubles(of + "points/at").size(), normal.size());
+        EXPECT_GE(count["box"], 40u) << "ten boxes of four edges";
+        EXPECT_EQ(count["island"], 10u) << "all boxes to the centre of the stack";
+        EXPECT_EQ(count["outline"] + count["joint"], 0u);
+    }
+    EXPECT_EQ(program.end(SIGINT), 0);
 }
 
 /// A saved scenario is valid for every other command, and its run continues like the live run.

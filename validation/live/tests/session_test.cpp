@@ -20,7 +20,7 @@ class Viewer {
   public:
     explicit Viewer(Session& session) : session_(session) {}
     void look(double seconds = 0.05) {
-        const Packet packet = Packet::decode(session_.frames(after_, seconds));
+        const Packet packet = session_.frames(after_, seconds);
         bytes_ = packet.encode().size();
         after_ = packet.header["sequence"];
         state_ = packet.header["session"];

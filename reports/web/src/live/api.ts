@@ -77,6 +77,7 @@ export interface News {
   sequence: number;
   session: SessionState;
   frames: FrameHead[];
+  line_kinds: string[]; // kinds of drawn lines, by their numbers
   arrays: ArrayBundle;
 }
 
@@ -119,9 +120,9 @@ export async function command(request: { command: string } & Record<string, unkn
   return read(await fetch('/api/command', { method: 'POST', headers, body: JSON.stringify(request) }));
 }
 
-/** All that is newer than `after`; waits for it. */
-export async function news(after: number): Promise<News> {
-  const response = await fetch(`/api/frames?after=${after}&wait=15`);
+/** All that is newer than `after`, with lines of these kinds; waits for it. */
+export async function news(after: number, lines: readonly string[], signal: AbortSignal): Promise<News> {
+  const response = await fetch(`/api/frames?after=${after}&wait=15&lines=${lines.join(',')}`, { signal });
   if (!response.ok) await read(response);
   const arrays = new ArrayBundle(await response.arrayBuffer());
   return { ...(arrays.meta as Omit<News, 'arrays'>), arrays };

@@ -4,7 +4,7 @@
 // An instance as the view shows it: its last frames, the newest at the end. Inside a step that is taken by stages the
 // contacts are those that the stages have made so far.
 import type { ArrayBundle, NumberArray } from '../common/arrays.ts';
-import type { Contacts, Frame, FrameSource, ReplayEvent } from '../replay/frames.ts';
+import type { Contacts, DrawnLines, Frame, FrameSource, ReplayEvent } from '../replay/frames.ts';
 import type { FrameHead } from './api.ts';
 import { manifoldContacts } from './stage_data.ts';
 
@@ -42,11 +42,13 @@ export class InstanceSource implements FrameSource {
   }
 
   /** Takes a frame; one that is not later than those before makes them void: the session has gone back. */
-  push(head: FrameHead, arrays: ArrayBundle): void {
+  push(head: FrameHead, arrays: ArrayBundle, kinds: readonly string[] = []): void {
     this.head = head;
     this.arrays = arrays;
     while (this.times.length > 0 && (this.times[this.times.length - 1] as number) >= head.time - 1e-12) this.#drop(-1);
-    const frame = frameOf(head, arrays);
+    const newest = this.newest;
+    if (newest) newest.lines = null; // only the newest frame is seen with its lines
+    const frame = frameOf(head, arrays, kinds);
     const size = 8 * 13 * (frame.position.length / 3) + 8 * 22 * (frame.contacts?.count ?? 0);
     this.times.push(head.time);
     this.#frames.push(frame);
@@ -66,7 +68,7 @@ const doubles = (arrays: ArrayBundle, name: string): Float64Array => (arrays.get
 const integers = (arrays: ArrayBundle, name: string): Int32Array => (arrays.get(name) as Int32Array).slice();
 
 /** Copies: frames are kept for trails, the bundle they came in (with what stages have made) is not. */
-function frameOf(head: FrameHead, arrays: ArrayBundle): Frame {
+function frameOf(head: FrameHead, arrays: ArrayBundle, kinds: readonly string[]): Frame {
   const of = `${head.instance}/`;
   const staged = head.has_stages && head.stage.done !== '';
   return {
@@ -77,7 +79,20 @@ function frameOf(head: FrameHead, arrays: ArrayBundle): Frame {
     velocity: doubles(arrays, `${of}velocity`),
     angularVelocity: doubles(arrays, `${of}angular_velocity`),
     contacts: staged && head.stage.in_step ? manifoldContacts(head, arrays) : contactsOf(head, arrays),
-    boxes: staged ? (arrays.get(`${of}boxes/sides`) as NumberArray).slice() : null,
+    lines: linesOf(of, arrays, kinds),
+  };
+}
+
+/** Null where the server has drawn none. */
+function linesOf(of: string, arrays: ArrayBundle, kinds: readonly string[]): DrawnLines | null {
+  if (!arrays.has(`${of}lines/ends`)) return null;
+  const copy = (name: string) => (arrays.get(of + name) as NumberArray).slice();
+  return {
+    kinds,
+    ends: copy('lines/ends'),
+    lineNames: copy('lines/names'),
+    points: copy('points/at'),
+    pointNames: copy('points/names'),
   };
 }
 

@@ -29,7 +29,7 @@ const explained: [string, string][] = [
   ['f l', 'faces, outlines'],
   ['c m p i', 'contacts, normals, penetration, impulses'],
   ['v w', 'velocities, angular velocities'],
-  ['j b t', 'joints, AABBs, trails'],
+  ['j b u t', 'joints, AABBs, islands, trails'],
   ['?', 'this list'],
 ];
 
@@ -63,7 +63,7 @@ export function keyAction(key: string, shift: boolean, actions: KeyActions): (()
     a: () => actions.frame(),
     '?': () => actions.help(),
   };
-  const layer = layerKeys[key];
+  const layer = key === 'u' ? 'islands' : layerKeys[key];
   if (layer) return () => actions.layer(layer);
   return simple[key] ?? null;
 }

@@ -5,7 +5,7 @@
 // page requests the newest frames and sends the user's requests.
 import { el } from '../common/elements.ts';
 import { timeStep } from '../common/format.ts';
-import type { LayerName } from '../replay/layers.ts';
+import { drawnKinds, type LayerName } from '../replay/layers.ts';
 import { decodeLink, encodeLink, viewOfHash, withView } from '../replay/link.ts';
 import { readScene, type Scene } from '../replay/scene.ts';
 import { NoWebGL } from '../replay/view.ts';
@@ -49,6 +49,11 @@ let scenario = '';
 let remembering: ReturnType<typeof setTimeout> | undefined;
 
 function changed(): void {
+  if (picture) {
+    const { layers } = picture.view.options;
+    const on = (Object.keys(drawnKinds) as LayerName[]).filter((name) => layers[name]);
+    session.lines = on.map((name) => drawnKinds[name] as string);
+  }
   transport.refresh(picture?.view ?? null);
   if (picture) arrangement.refresh(picture.view);
   clearTimeout(remembering);
@@ -90,6 +95,7 @@ async function show(first: number): Promise<void> {
     scene = readScene((await api.scene(first)).scenario);
     picture?.dispose();
     picture = new Picture(stage, scene, drag);
+    Object.assign(stage, { picture }); // for tests and the browser's tools
   } catch (error) {
     stage.replaceChildren(
       el(

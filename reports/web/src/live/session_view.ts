@@ -19,6 +19,8 @@ export class SessionView {
   /** There is no server any more, and why. */
   onEnd: ((text: string) => void) | null = null;
   #after = 0;
+  #lines: readonly string[] = [];
+  #request = new AbortController();
   #scenario = '';
   #ended = false;
 
@@ -40,10 +42,13 @@ export class SessionView {
   /** Follows the server until it ends. */
   async follow(): Promise<void> {
     for (let failures = 0; !this.#ended; ) {
+      const { signal } = this.#request;
       try {
-        this.take(await news(this.#after));
+        const found = await news(this.#after, this.#lines, signal);
         failures = 0;
+        if (!signal.aborted) this.take(found); // else it has the lines of before
       } catch (error) {
+        if (signal.aborted) continue;
         if (error instanceof Refused || ++failures > 5) {
           this.onEnd?.(
             error instanceof Refused ? error.message : 'rigor view has ended. Start it again and open its new link.',
@@ -55,7 +60,16 @@ export class SessionView {
     }
   }
 
-  take({ sequence, session, frames, arrays }: News): void {
+  /** Kinds of lines that are drawn of all frames from now on, and of the last ones again. */
+  set lines(kinds: readonly string[]) {
+    if (kinds.join() === this.#lines.join()) return;
+    this.#lines = kinds;
+    this.#after = 0;
+    this.#request.abort();
+    this.#request = new AbortController();
+  }
+
+  take({ sequence, session, frames, line_kinds, arrays }: News): void {
     this.#after = sequence;
     const other = session.scenario !== this.#scenario;
     this.#scenario = session.scenario;
@@ -74,7 +88,7 @@ export class SessionView {
       source.note = instance.state === 'ready' ? '' : `${instance.state.replaceAll('_', '-')}: ${instance.message}`;
     });
     const empty = [...this.sources.values()].filter((source) => source.times.length === 0).length;
-    for (const head of frames) this.sources.get(head.instance)?.push(head, arrays);
+    for (const head of frames) this.sources.get(head.instance)?.push(head, arrays, line_kinds);
     const filled = [...this.sources.values()].filter((source) => source.times.length === 0).length !== empty;
     this.onNews?.(other || filled || ids !== before);
   }

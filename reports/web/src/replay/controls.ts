@@ -170,7 +170,7 @@ export class Controls implements ControlActions {
     const stage = this.#stage;
     const { layers, exaggeration, arrows } = stage.view.options;
     const chips = (Object.keys(layerNames) as LayerName[])
-      .filter((name) => name !== 'reference' || stage.hasReference)
+      .filter((name) => name !== 'islands' && (name !== 'reference' || stage.hasReference))
       .map((name) => this.#chip(layerNames[name], layers[name], hints[name] ?? '', () => this.toggle(name), name));
     const slider = (text: string, value: number, least: number, most: number, set: (v: number) => void) => {
       const input = el('input', {

@@ -27,6 +27,15 @@ export interface Contacts {
   carriedB?: ArrayLike<number>;
 }
 
+/** Lines and points that an engine's debug drawing has made of a frame; arrows have 1 m for 1 m/s or 1 N s. */
+export interface DrawnLines {
+  kinds: readonly string[]; // "contact", "velocity", ...
+  ends: ArrayLike<number>; // 6 a line [m]
+  lineNames: ArrayLike<number>; // kind and body of each line
+  points: ArrayLike<number>; // 3 a point [m]
+  pointNames: ArrayLike<number>;
+}
+
 /** State of all bodies at one time. */
 export interface Frame {
   time: number; // [s]
@@ -36,8 +45,8 @@ export interface Frame {
   velocity: ArrayLike<number> | null; // 3 a body [m/s]
   angularVelocity: ArrayLike<number> | null; // 3 a body [rad/s]
   contacts: Contacts | null; // null: not stored for this frame
-  /** Boxes that the engine itself compared, 6 a box: low and high corner [m]; may have no end. Else they are drawn exact. */
-  boxes?: ArrayLike<number> | null;
+  /** Given by live runs: contacts, arrows, joints, boxes and islands are these, and not reckoned here. */
+  lines?: DrawnLines | null;
 }
 
 /** Event that the view can jump to. */

@@ -14,12 +14,27 @@ export const layerNames = {
   spins: 'Angular velocities',
   joints: 'Joints',
   bounds: 'AABBs',
+  islands: 'Islands',
   trails: 'Trails',
   reference: 'Reference',
   names: 'Names',
 } as const;
 export type LayerName = keyof typeof layerNames;
 export type Layers = Record<LayerName, boolean>;
+
+/** Layers whose lines the server of a live run draws, and the kinds of these. Replays have no islands. */
+export const drawnKinds: Partial<Record<LayerName, string>> = {
+  contacts: 'contact',
+  normals: 'normal',
+  impulses: 'impulse',
+  velocities: 'velocity',
+  joints: 'joint',
+  bounds: 'box',
+  islands: 'island',
+};
+export const layerOfKind = Object.fromEntries(
+  Object.entries(drawnKinds).map(([layer, kind]) => [kind, layer]),
+) as Record<string, LayerName>;
 
 export const colourings = { engine: 'by engine', body: 'by body', island: 'by island' } as const;
 export type Colouring = keyof typeof colourings;
@@ -44,6 +59,7 @@ export const defaultOptions = (): ViewOptions => ({
     spins: false,
     joints: true,
     bounds: false,
+    islands: false,
     trails: false,
     reference: true,
     names: false,

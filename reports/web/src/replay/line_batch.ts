@@ -62,6 +62,11 @@ export class ThinLines {
     this.object.renderOrder = order;
   }
 
+  /** Ends of the lines, as they stand in the buffer that is drawn. */
+  get ends(): number[] {
+    return Array.from(this.#segments.points.subarray(0, 6 * this.#segments.count));
+  }
+
   begin(): void {
     this.#segments.count = 0;
   }
@@ -237,6 +242,10 @@ export class Dots {
 
   set pixels(value: number) {
     (this.object.material.uniforms.pixels as { value: number }).value = value;
+  }
+
+  get points(): number[] {
+    return Array.from(this.#points.subarray(0, 3 * this.#count));
   }
 
   begin(): void {

@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Overlays of the bodies of one source: contacts, arrows, joints, boxes, trails. Rebuilt when the frame or a switch
-// changes, in buffers that are kept.
+// changes, in buffers that are kept. Where a frame brings the lines of an engine's debug drawing, they are drawn.
 import { Color, Group } from 'three';
 import type { BodyLayer } from './body_layer.ts';
 import type { Bounds } from './bounds.ts';
 import type { Theme } from './colours.ts';
-import { type Contacts, type Frame, type FrameSource, indexAt, middleOf } from './frames.ts';
-import type { ViewOptions } from './layers.ts';
+import { type Contacts, type DrawnLines, type Frame, type FrameSource, indexAt, middleOf } from './frames.ts';
+import { layerOfKind, type ViewOptions } from './layers.ts';
 import { type Arrow, Dots, FatLines, ThinLines } from './line_batch.ts';
 import type { Scene, SceneJoint } from './scene.ts';
 import { type Quat, rotate, type Vec3 } from './vectors.ts';
@@ -21,6 +21,17 @@ export interface ArrowScales {
   spin: number; // [rad/s]
   impulse: number; // [N s]
 }
+
+interface LineStyle {
+  colour: string; // "": that of the body
+  batch: ThinLines;
+  scale: number;
+  head: number; // length of an arrow's head [m]; 0: a line
+}
+type SixNumbers = [number, number, number, number, number, number];
+
+const normalLength = (options: ViewOptions, scales: ArrowScales) =>
+  Math.min(0.11 * scales.size, 0.9 * scales.body) * options.arrows;
 
 const mostTrails = 80; // bodies; more would be a tangle
 const trailFrames = 240;
@@ -45,6 +56,14 @@ export class Overlays {
   get arrows(): Arrow[] {
     return this.#fat.arrows;
   }
+  /** Ends of the thin lines that are drawn, 6 numbers each [m]. */
+  get lines(): number[] {
+    return [...this.#thin.ends, ...this.#boxes.ends];
+  }
+  /** Dots that are drawn, 3 numbers each [m]. */
+  get dots(): number[] {
+    return this.#dots.points;
+  }
 
   set pixels(value: number) {
     this.#dots.pixels = value;
@@ -62,27 +81,71 @@ export class Overlays {
     for (const batch of [this.#thin, this.#boxes, this.#fat, this.#dots]) batch.begin();
     const { layers } = options;
     if (!source.ghost) {
-      if (layers.bounds) this.#drawBounds(bodies, frame, theme);
-      if (layers.joints) this.#drawJoints(frame, theme, scales);
       // colours show the source of a contact if all sources are in one picture
       const own = options.overlaid ? { ...theme, contact: source.colour, normal: source.colour } : theme;
-      if (frame.contacts) this.#drawContacts(frame.contacts, options, own, scales);
-      if (layers.velocities) this.#drawVectors(frame, frame.velocity, theme.velocity, scales.speed, scales, options);
+      if (frame.lines) this.#drawLines(frame.lines, options, own, scales, colours);
+      else {
+        if (layers.bounds) this.#drawBounds(bodies, theme);
+        if (layers.joints) this.#drawJoints(frame, theme);
+        if (frame.contacts) this.#drawContacts(frame.contacts, options, own, scales);
+        if (layers.velocities) this.#drawVectors(frame, frame.velocity, theme.velocity, scales.speed, scales, options);
+      }
+      if (layers.joints) this.#drawAxes(frame, theme, scales);
+      if (layers.penetration && frame.contacts) this.#drawPenetration(frame.contacts, options, theme);
       if (layers.spins) this.#drawVectors(frame, frame.angularVelocity, theme.spin, scales.spin, scales, options);
     }
     if (layers.trails) this.#drawTrails(source, frame, theme, colours);
     for (const batch of [this.#thin, this.#boxes, this.#fat, this.#dots]) batch.end();
   }
 
-  #drawBounds(bodies: BodyLayer, frame: Frame, theme: Theme): void {
+  /** Lines of the debug drawing: arrows to the scales of the picture, those of islands in the colours of bodies. */
+  #drawLines(lines: DrawnLines, options: ViewOptions, theme: Theme, scales: ArrowScales, colours: Float32Array): void {
+    const styles = lines.kinds.map((kind) => this.#styleOf(kind, options, theme, scales));
+    const at = (list: ArrayLike<number>, i: number) => list[i] as number;
+    for (let i = 0; 2 * i < lines.lineNames.length; ++i) {
+      const style = styles[at(lines.lineNames, 2 * i)];
+      if (!style) continue;
+      const [ax, ay, az, bx, by, bz] = [0, 1, 2, 3, 4, 5].map((k) => at(lines.ends, 6 * i + k)) as SixNumbers;
+      const body = at(lines.lineNames, 2 * i + 1);
+      if (style.colour !== '') this.#c.set(style.colour);
+      else this.#c.setRGB(at(colours, 3 * body), at(colours, 3 * body + 1), at(colours, 3 * body + 2));
+      const { scale, head } = style;
+      if (head > 0) this.#fat.arrow(ax, ay, az, (bx - ax) * scale, (by - ay) * scale, (bz - az) * scale, head, this.#c);
+      else style.batch.line(ax, ay, az, bx, by, bz, this.#c);
+    }
+    for (let i = 0; 2 * i < lines.pointNames.length; ++i) {
+      const style = styles[at(lines.pointNames, 2 * i)];
+      const [x, y, z] = [0, 1, 2].map((k) => at(lines.points, 3 * i + k)) as Vec3;
+      if (style) this.#dots.dot(x, y, z, this.#c.set(style.colour));
+    }
+  }
+
+  /** How lines of a kind are drawn; null: its layer is off. `scale` [m for 1 m, 1 m/s, 1 N s]. */
+  #styleOf(kind: string, options: ViewOptions, theme: Theme, scales: ArrowScales): LineStyle | null {
+    const layer = layerOfKind[kind];
+    if (!layer || !options.layers[layer]) return null;
+    const plain = (colour: string, batch = this.#thin) => ({ colour, batch, scale: 1, head: 0 });
+    const arrow = (colour: string, scale: number, head: number) =>
+      Number.isFinite(scale) ? { ...plain(colour), scale, head } : null;
+    const long = 0.03 * scales.size;
+    const styles: Record<string, LineStyle | null> = {
+      contact: plain(theme.contact),
+      normal: arrow(theme.normal, normalLength(options, scales), 0.3 * normalLength(options, scales)),
+      impulse: arrow(theme.impulse, (0.35 * scales.size * options.arrows) / scales.impulse, long),
+      velocity: arrow(theme.velocity, (0.3 * scales.size * options.arrows) / scales.speed, long),
+      joint: plain(theme.joint),
+      box: plain(theme.bounds, this.#boxes),
+      island: plain(''),
+    };
+    return styles[kind] ?? null;
+  }
+
+  #drawBounds(bodies: BodyLayer, theme: Theme): void {
     const b = this.#box;
     this.#c.set(theme.bounds);
-    const own = frame.boxes;
-    const count = own ? own.length / 6 : bodies.shapes.length;
     const corner = (i: number, k: number) => b[k + ((i >> k) & 1 ? 3 : 0)] as number;
-    for (let s = 0; s < count; ++s) {
-      if (own) for (let k = 0; k < 6; ++k) b[k] = own[6 * s + k] as number;
-      else if (!bodies.bounds(s, b)) continue;
+    for (let s = 0; s < bodies.shapes.length; ++s) {
+      if (!bodies.bounds(s, b)) continue;
       if (!b.every((v) => Math.abs(v) < 1e9)) continue; // a half-space has no end
       for (let e = 0; e < edgesOfBox.length; e += 2) {
         const [i, j] = [edgesOfBox[e] as number, edgesOfBox[e + 1] as number];
@@ -93,8 +156,8 @@ export class Overlays {
 
   #drawContacts(contacts: Contacts, options: ViewOptions, theme: Theme, scales: ArrowScales): void {
     const { layers } = options;
-    const normalLength = Math.min(0.11 * scales.size, 0.9 * scales.body) * options.arrows;
-    const head = 0.3 * normalLength;
+    const length = normalLength(options, scales);
+    const head = 0.3 * length;
     for (let i = 0; i < contacts.count; ++i) {
       const at = (list: ArrayLike<number>, k: number) => list[3 * i + k] as number;
       const [x, y, z] = middleOf(contacts, i);
@@ -104,30 +167,18 @@ export class Overlays {
       if (!Number.isFinite(x + y + z)) continue;
       if (layers.contacts) this.#dots.dot(x, y, z, this.#c.set(theme.contact));
       if (layers.normals)
-        this.#fat.arrow(
-          x,
-          y,
-          z,
-          nx * normalLength,
-          ny * normalLength,
-          nz * normalLength,
-          head,
-          this.#c.set(theme.normal),
-        );
-      if (layers.penetration) {
-        const half = ((contacts.depth[i] as number) * options.exaggeration) / 2;
-        this.#c.set(theme.penetration);
-        this.#fat.line(
-          x - nx * half,
-          y - ny * half,
-          z - nz * half,
-          x + nx * half,
-          y + ny * half,
-          z + nz * half,
-          this.#c,
-        );
-      }
+        this.#fat.arrow(x, y, z, nx * length, ny * length, nz * length, head, this.#c.set(theme.normal));
       if (layers.impulses) this.#drawImpulse(contacts, i, x, y, z, theme, scales, options.arrows);
+    }
+  }
+
+  #drawPenetration(contacts: Contacts, options: ViewOptions, theme: Theme): void {
+    this.#c.set(theme.penetration);
+    for (let i = 0; i < contacts.count; ++i) {
+      const [x, y, z] = middleOf(contacts, i);
+      const half = ((contacts.depth[i] as number) * options.exaggeration) / 2;
+      const [a, b, c] = [0, 1, 2].map((k) => (contacts.normal[3 * i + k] as number) * half) as Vec3;
+      if (Number.isFinite(x + y + z)) this.#fat.line(x - a, y - b, z - c, x + a, y + b, z + c, this.#c);
     }
   }
 
@@ -160,7 +211,7 @@ export class Overlays {
     });
   }
 
-  #drawJoints(frame: Frame, theme: Theme, scales: ArrowScales): void {
+  #drawJoints(frame: Frame, theme: Theme): void {
     this.#c.set(theme.joint);
     for (const joint of this.#scene.joints) {
       const [a, b] = [
@@ -177,19 +228,17 @@ export class Overlays {
         this.#dots.dot(...anchor, this.#c);
       }
       this.#fat.line(...a, ...b, this.#c); // line between the anchors: the joint's length or its drift
-      if (joint.axis && this.#scene.dimension === 3 && joint.type !== 'ball') {
-        const d = this.#turned(frame, joint.b, joint.axis);
-        const h = 0.05 * scales.size;
-        this.#fat.line(
-          b[0] - d[0] * h,
-          b[1] - d[1] * h,
-          b[2] - d[2] * h,
-          b[0] + d[0] * h,
-          b[1] + d[1] * h,
-          b[2] + d[2] * h,
-          this.#c,
-        );
-      }
+    }
+  }
+
+  #drawAxes(frame: Frame, theme: Theme, scales: ArrowScales): void {
+    this.#c.set(theme.joint);
+    const h = 0.05 * scales.size;
+    for (const joint of this.#scene.joints) {
+      if (!joint.axis || this.#scene.dimension !== 3 || joint.type === 'ball') continue;
+      const [x, y, z] = this.#anchor(frame, joint, joint.b, joint.anchorB);
+      const [a, b, c] = this.#turned(frame, joint.b, joint.axis).map((v) => v * h) as Vec3;
+      if (Number.isFinite(x)) this.#fat.line(x - a, y - b, z - c, x + a, y + b, z + c, this.#c);
     }
   }
 

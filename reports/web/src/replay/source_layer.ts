@@ -19,6 +19,8 @@ import type { TemplateCache } from './shape_meshes.ts';
 export interface Drawn {
   bodies: BodyLayer['drawn'];
   arrows: Overlays['arrows'];
+  lines: Overlays['lines'];
+  dots: Overlays['dots'];
 }
 
 export class SourceLayer {
@@ -70,7 +72,12 @@ export class SourceLayer {
 
   /** Content of the picture as numbers, read from the buffers that are drawn. */
   get drawn(): Drawn {
-    return { bodies: this.bodies.drawn, arrows: [...this.#overlays.arrows, ...this.#findings.arrows] };
+    return {
+      bodies: this.bodies.drawn,
+      arrows: [...this.#overlays.arrows, ...this.#findings.arrows],
+      lines: this.#overlays.lines,
+      dots: this.#overlays.dots,
+    };
   }
 
   build(framing: Framing, theme: Theme, pixelRatio: number): void {

@@ -88,6 +88,67 @@ test('a person plays, looks inside a step, drags, branches and saves', { skip },
       });
   });
 
+  await t.test('draws the lines that the server has drawn', async () => {
+    for (const key of ['v', 'i', 'u', 'b', 'a']) await page.keyboard.press(key); // a: arrows to the scale of this frame
+    const layers = ['velocities', 'impulses', 'islands', 'bounds'];
+    for (const name of layers) await page.waitForSelector(`[data-switch="${name}"][aria-pressed="true"]`);
+    const lines = 'lines=contact,normal,impulse,velocity,joint,box,island';
+    const numbers = await page.evaluate(async (query) => {
+      const answer = await fetch(`/api/frames?after=0&wait=0&${query}`);
+      return Array.from(new Uint8Array(await answer.arrayBuffer()));
+    }, lines);
+    const sent = new ArrayBundle(Uint8Array.from(numbers).buffer);
+    const kinds = (sent.meta as News).line_kinds;
+    const ends = Array.from(sent.get('0/lines/ends'));
+    const kindOf = (i: number) => kinds[sent.get('0/lines/names')[2 * i] as number] as string;
+    const plain: number[] = [];
+    const arrows: number[][] = [];
+    for (let i = 0; 6 * i < ends.length; ++i) {
+      const line = ends.slice(6 * i, 6 * i + 6);
+      if (['normal', 'impulse', 'velocity'].includes(kindOf(i))) arrows.push(line);
+      else if (kindOf(i) !== 'box') plain.push(...line);
+    }
+    for (let i = 0; 6 * i < ends.length; ++i) if (kindOf(i) === 'box') plain.push(...ends.slice(6 * i, 6 * i + 6));
+    assert.ok(arrows.length > 2 && plain.length > 6 * 12, 'arrows, boxes and islands');
+    type Shown = { lines: number[]; dots: number[]; arrows: { from: number[]; to: number[] }[] };
+    await page.waitForFunction((count) => {
+      const root = document.querySelector('.live-picture') as unknown as {
+        picture: { view: { drawn: (of: string) => Shown } };
+      };
+      return root.picture.view.drawn('instance 0').lines.length === count;
+    }, plain.length);
+    const shown = await page.evaluate(() => {
+      const root = document.querySelector('.live-picture') as unknown as {
+        picture: { view: { drawn: (of: string) => Shown } };
+      };
+      return root.picture.view.drawn('instance 0');
+    });
+    const near = (a: number[], b: number[], what: string) => {
+      assert.equal(a.length, b.length, what);
+      for (const [k, v] of a.entries())
+        assert.ok(Math.abs(v - (b[k] as number)) < 1e-5 * (1 + Math.abs(v)), `${what}: ${v}, ${b[k]}`);
+    };
+    near(shown.lines, plain, 'boxes and islands');
+    near(shown.dots, Array.from(sent.get('0/points/at')), 'contact points');
+    assert.equal(shown.arrows.length, arrows.length);
+    shown.arrows.forEach(({ from, to }, i) => {
+      const line = arrows[i] as number[];
+      near(from, line.slice(0, 3), 'where an arrow begins');
+      const length = (v: number[]) => Math.hypot(...v);
+      const [sentWay, way] = [
+        line.slice(3).map((v, k) => v - (line[k] as number)),
+        to.map((v, k) => v - (from[k] as number)),
+      ];
+      near(
+        way.map((v) => v / length(way)),
+        sentWay.map((v) => v / length(sentWay)),
+        'where it points',
+      );
+    });
+    await shoot(page, 'live-lines');
+    for (const key of ['v', 'i', 'u', 'b']) await page.keyboard.press(key);
+  });
+
   await t.test('stops inside the step', async () => {
     for (const stage of ['broad_phase', 'narrow_phase', 'rows', 'velocities', 'solve']) {
       await page.keyboard.press('s');

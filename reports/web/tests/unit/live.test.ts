@@ -52,30 +52,27 @@ const head = (step: number, more: Partial<FrameHead> = {}): FrameHead => ({
 });
 
 /** Two bodies and one contact; the second body is at (step, 0, 0). */
-function frame(step: number): ArrayBundle {
-  return bundle(
-    {
-      '3/position': [0, 0, 0, step, 0, 0],
-      '3/orientation': [1, 0, 0, 0, 1, 0, 0, 0],
-      '3/velocity': [0, 0, 0, 1, 2, 3],
-      '3/angular_velocity': [0, 0, 0, 0, 0, 1],
-      '3/contacts/point_a': [1, 2, 3],
-      '3/contacts/point_b': [1, 2, 3],
-      '3/contacts/carried_a': [1 + step, 2, 3],
-      '3/contacts/carried_b': [1 + step, 2, 5],
-      '3/contacts/normal': [0, 1, 0],
-      '3/contacts/depth': [0.01],
-      '3/contacts/normal_impulse': [Number.NaN],
-      '3/contacts/friction_impulse': [0, 0, 0],
-    },
-    {
-      '3/contacts/body_a': [0],
-      '3/contacts/body_b': [1],
-      '3/contacts/shape_a': [0],
-      '3/contacts/shape_b': [2],
-    },
-  );
-}
+const numbersAt = (step: number): Record<string, number[]> => ({
+  '3/position': [0, 0, 0, step, 0, 0],
+  '3/orientation': [1, 0, 0, 0, 1, 0, 0, 0],
+  '3/velocity': [0, 0, 0, 1, 2, 3],
+  '3/angular_velocity': [0, 0, 0, 0, 0, 1],
+  '3/contacts/point_a': [1, 2, 3],
+  '3/contacts/point_b': [1, 2, 3],
+  '3/contacts/carried_a': [1 + step, 2, 3],
+  '3/contacts/carried_b': [1 + step, 2, 5],
+  '3/contacts/normal': [0, 1, 0],
+  '3/contacts/depth': [0.01],
+  '3/contacts/normal_impulse': [Number.NaN],
+  '3/contacts/friction_impulse': [0, 0, 0],
+});
+const contactNames = {
+  '3/contacts/body_a': [0],
+  '3/contacts/body_b': [1],
+  '3/contacts/shape_a': [0],
+  '3/contacts/shape_b': [2],
+};
+const frame = (step: number): ArrayBundle => bundle(numbersAt(step), contactNames);
 
 test('an instance keeps its last frames, and forgets those after a step back', () => {
   const instance = new InstanceSource(3, 'instance 3', 'rigor', '#fff');
@@ -161,7 +158,7 @@ test('what stages have made is read in its order', () => {
 test('inside a step the manifolds are the contacts, with the impulses of their rows', () => {
   const instance = new InstanceSource(3, 'instance 3', 'rigor', '#fff');
   instance.push(inStep, staged);
-  const { contacts, boxes } = instance.newest as Frame;
+  const { contacts } = instance.newest as Frame;
   assert.equal(contacts?.count, 3);
   assert.deepEqual(Array.from(contacts?.bodyB as Int32Array), [1, 1, 2]);
   assert.deepEqual(Array.from(contacts?.normal as Float64Array), [0, 1, 0, 0, 1, 0, 1, 0, 0]);
@@ -170,7 +167,26 @@ test('inside a step the manifolds are the contacts, with the impulses of their r
     [10, 6, 12],
     'a point without a row keeps its own',
   );
-  assert.equal(boxes?.length, 12);
+});
+
+test('the newest frame has the lines that the server has drawn of it, and only that', () => {
+  const instance = new InstanceSource(3, 'instance 3', 'rigor', '#fff');
+  const drawn = (step: number) =>
+    bundle(
+      { ...numbersAt(step), '3/lines/ends': [0, 0, 0, 0, step, 0], '3/points/at': [] },
+      { ...contactNames, '3/lines/names': [1, 0], '3/points/names': [] },
+    );
+  instance.push(head(1), frame(1));
+  assert.equal(instance.newest?.lines, null, 'none were requested');
+  instance.push(head(2), drawn(2), ['contact', 'velocity']);
+  const { lines } = instance.newest as Frame;
+  assert.deepEqual(Array.from(lines?.ends ?? []), [0, 0, 0, 0, 2, 0]);
+  assert.deepEqual([lines?.kinds[1], lines?.lineNames[1]], ['velocity', 0]);
+  instance.push(head(3), drawn(3), ['contact', 'velocity']);
+  assert.deepEqual([instance.frame(1).lines, (instance.newest as Frame).lines?.ends[4]], [null, 3]);
+  instance.push(head(3), frame(3));
+  assert.equal(instance.times.length, 3);
+  assert.equal(instance.newest?.lines, null, 'the same frame again, without lines');
 });
 
 test('curves are those of the largest impulses, residuals of nothing are gaps', () => {

@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { Matrix4, PerspectiveCamera, Raycaster, Vector2, Vector3 } from 'three';
 import { Observable } from '../../src/common/cursor.ts';
 import { BodyLayer } from '../../src/replay/body_layer.ts';
-import { distinguishable } from '../../src/replay/colours.ts';
+import { distinguishable, lightTheme } from '../../src/replay/colours.ts';
 import type { Contacts, Frame, FrameSource, ReplayEvent } from '../../src/replay/frames.ts';
 import { frameScene, sampled } from '../../src/replay/framing.ts';
 import { roundNumber } from '../../src/replay/ground.ts';
@@ -22,6 +22,7 @@ import {
 import { defaultOptions } from '../../src/replay/layers.ts';
 import { decodeLink, encodeLink, viewOfHash, withView } from '../../src/replay/link.ts';
 import { crossesBox, occludingBodies } from '../../src/replay/occluder_fade.ts';
+import { Overlays } from '../../src/replay/overlays.ts';
 import { nearestContact, rectAt, tile, toDevice, toPixels } from '../../src/replay/picking.ts';
 import { Player } from '../../src/replay/player.ts';
 import { readScene } from '../../src/replay/scene.ts';
@@ -243,6 +244,55 @@ test('a link restores the view', () => {
   assert.equal(viewOfHash(hash), 't=1&on=faces');
   assert.ok(hash.startsWith('#/scenario/pile?dt=0.01&view='));
   assert.equal(viewOfHash('#/scenario/pile'), '');
+});
+
+test('the lines of a live run are drawn in place of those reckoned here', () => {
+  const overlays = new Overlays(twoBodies);
+  const bodies = new BodyLayer(twoBodies, new TemplateCache());
+  const shown: FrameSource = source('a', [0], [], [[0, 0, 0, 10, 0, 0]]);
+  const scales = { size: 10, body: 1, speed: 3, spin: 1, impulse: 2 };
+  const options = defaultOptions();
+  Object.assign(options.layers, { velocities: true, impulses: true, islands: true });
+  const plain: Frame = { ...frameAt([0, 0, 0, 10, 0, 0]), velocity: [0, 0, 0, 1, 0, 0] };
+  const draw = (frame: Frame) => {
+    bodies.place(frame);
+    overlays.draw(shown, frame, bodies, options, lightTheme, scales, new Float32Array(6));
+  };
+  draw(plain);
+  assert.equal(overlays.arrows.length, 1, 'a velocity, reckoned');
+  const kinds = ['outline', 'box', 'contact', 'normal', 'impulse', 'velocity', 'joint', 'island'];
+  const kind = (name: string) => kinds.indexOf(name);
+  const drawn: Frame = {
+    ...plain,
+    lines: {
+      kinds,
+      ends: [
+        [0, 0, 0, 0, 1, 0],
+        [1, 0, 0, 1, 2, 0],
+        [2, 0, 0, 5, 0, 0],
+        [3, 0, 0, 3, 3, 3],
+        [4, 0, 0, 4, 4, 4],
+        [5, 0, 0, 5, 5, 5],
+      ].flat(),
+      lineNames: ['normal', 'impulse', 'velocity', 'joint', 'island', 'box'].flatMap((name) => [kind(name), 0]),
+      points: [7, 8, 9],
+      pointNames: [kind('contact'), 1],
+    },
+  };
+  draw(drawn);
+  const lengths = overlays.arrows.map(({ from, to }) => Math.hypot(...to.map((v, k) => v - (from[k] as number))));
+  // 0.9 of a body; 0.35 of the picture for 2 N s; 0.3 of it for 3 m/s
+  const expected = [0.9, 3.5, 3];
+  assert.equal(lengths.length, expected.length);
+  for (const [i, length] of lengths.entries())
+    assert.ok(Math.abs(length - (expected[i] as number)) < 1e-6, `${lengths}`);
+  assert.deepEqual(overlays.lines, [3, 0, 0, 3, 3, 3, 4, 0, 0, 4, 4, 4], 'boxes are off');
+  assert.deepEqual(overlays.dots, [7, 8, 9]);
+  Object.assign(options.layers, { velocities: false, contacts: false, joints: false, bounds: true });
+  draw(drawn);
+  assert.equal(overlays.arrows.length, 2);
+  assert.deepEqual(overlays.lines, [4, 0, 0, 4, 4, 4, 5, 0, 0, 5, 5, 5]);
+  assert.deepEqual(overlays.dots, []);
 });
 
 test('speeds go up and down in steps', () => {
