@@ -32,6 +32,13 @@ inline std::vector<std::string> tableColumns(SQLite::Database& database, const s
     return names;
 }
 
+inline std::vector<std::string> idsOfCases(SQLite::Database& database) {
+    std::vector<std::string> ids;
+    SQLite::Statement select(database, "SELECT id FROM cases");
+    while (select.executeStep()) ids.push_back(select.getColumn(0).getString());
+    return ids;
+}
+
 inline bool hasNonFiniteColumn(SQLite::Database& database, const std::string& table) {
     for (const std::string& name : tableColumns(database, table))
         if (name == kNonFiniteColumn) return true;
@@ -220,6 +227,23 @@ class Taker {
     SQLite::Statement& statement_;
     std::string nonFinite_;
     int next_ = 0;
+};
+
+/// Binds every field of a record.
+struct BindFields {
+    Binder& binder;
+    template <class T>
+    void operator()(const char*, const T& value, int = 1, const char* = nullptr) {
+        binder << value;
+    }
+};
+/// Takes every field of a record.
+struct TakeFields {
+    Taker& taker;
+    template <class T>
+    void operator()(const char*, T& value, int = 1, const char* = nullptr) {
+        taker >> value;
+    }
 };
 
 }  // namespace rigor::results

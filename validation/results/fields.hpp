@@ -48,6 +48,12 @@ void eachField(Row& q, Use&& use) {
     use("measured", q.measured);
 }
 
+template <RowOf<SettingRow> Row, class Use>
+void eachField(Row& s, Use&& use) {
+    use("key", s.key);
+    use("value", s.value);
+}
+
 template <RowOf<LedgerRow> Row, class Use>
 void eachField(Row& l, Use&& use) {
     use("topic", l.topic);
@@ -145,15 +151,21 @@ void eachField(Row& c, Use&& use) {
     use("order_dependent", c.orders.dependence, 10);
 }
 
-/// The tables of a case: use(table, list of records).
+/// The tables with rows of each case: use(table, list of records).
 template <RowOf<CaseRow> Row, class Use>
-void eachList(Row& c, Use&& use) {
+void eachOwnList(Row& c, Use&& use) {
     use("metrics", c.metrics);
     use("quantities", c.quantities);
-    use("ledger", c.ledger);
-    use("read_back", c.readBack);
     use("audit", c.audit);
     use("timings", c.timings);
+}
+
+/// Every list of records of a case but its settings.
+template <RowOf<CaseRow> Row, class Use>
+void eachList(Row& c, Use&& use) {
+    eachOwnList(c, use);
+    use("ledger", c.ledger);
+    use("read_back", c.readBack);
 }
 
 /// Enumerations as their texts.

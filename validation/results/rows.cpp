@@ -10,26 +10,10 @@
 #include "validation/results/columns.hpp"
 #include "validation/results/schema.hpp"
 #include "validation/results/seals.hpp"
+#include "validation/results/shared_lists.hpp"
 
 namespace rigor::results {
 namespace {
-
-/// Binds every field of a record.
-struct BindFields {
-    Binder& binder;
-    template <class T>
-    void operator()(const char*, const T& value, int = 1, const char* = nullptr) {
-        binder << value;
-    }
-};
-/// Takes every field of a record.
-struct TakeFields {
-    Taker& taker;
-    template <class T>
-    void operator()(const char*, T& value, int = 1, const char* = nullptr) {
-        taker >> value;
-    }
-};
 
 /// Writes each element of `rows` with the case's id and its ordinal in front.
 template <class Rows, class Bind>
@@ -48,12 +32,10 @@ void writeList(SQLite::Database& database, const char* table, const std::string&
 }
 
 void writeLists(SQLite::Database& database, const CaseRow& c) {
-    eachList(c, [&](const char* table, const auto& rows) {
+    eachOwnList(c, [&](const char* table, const auto& rows) {
         writeList(database, table, c.id, rows,
                   [](Binder& binder, const auto& row) { eachField(row, BindFields{binder}); });
     });
-    writeList(database, "settings", c.id, c.settings,
-              [](Binder& b, const auto& setting) { b << setting.first << setting.second; });
 }
 
 std::vector<CaseRow> readCases(SQLite::Database& database, const std::set<std::string>& skipped) {
@@ -201,8 +183,10 @@ void writeCaseRows(SQLite::Database& database, const CaseRow& c) {
     SQLite::Statement forget(database, "DELETE FROM cases WHERE id = ?");
     (Binder(forget) << c.id).run();
     SQLite::Statement insert(database, insertInto("cases", tableColumns(database, "cases").size()));
+    const SharedLists lists = storeSharedLists(database, c);
     Binder binder(insert);
     eachField(c, BindFields{binder});
+    binder << lists.settings << lists.ledger << lists.readBack;
     binder.run();
     writeLists(database, c);
 }

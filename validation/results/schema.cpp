@@ -11,6 +11,7 @@
 #include "validation/results/bench_rows.hpp"
 #include "validation/results/columns.hpp"
 #include "validation/results/seals.hpp"
+#include "validation/results/shared_lists.hpp"
 #include "validation/results/store.hpp"
 
 namespace rigor::results {
@@ -38,10 +39,7 @@ CREATE TABLE cases (
     trajectory_file TEXT, command TEXT, refusal TEXT, grade TEXT, graded_by TEXT, relative_error, ideal_error, grade_note TEXT,
     regression TEXT, regression_reason TEXT, insertion_orders INTEGER, insertion_orders_completed INTEGER,
     grade_best TEXT, grade_worst TEXT, insertion_note TEXT, insertion_orders_failed INTEGER, insertion_verdicts TEXT,
-    order_dependent TEXT) WITHOUT ROWID;
-CREATE TABLE settings (
-    case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, key TEXT, value TEXT,
-    PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+    order_dependent TEXT, settings_list INTEGER, ledger_list INTEGER, read_back_list INTEGER) WITHOUT ROWID;
 CREATE TABLE metrics (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, subject TEXT, unit TEXT, kind TEXT,
     value, at, bound, expectation, verdict TEXT, note TEXT, scale, relative_error, ideal_error, recorded,
@@ -49,12 +47,6 @@ CREATE TABLE metrics (
 CREATE TABLE quantities (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, unit TEXT, exact, scheme_exact,
     measured, non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
-CREATE TABLE ledger (
-    case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, topic TEXT, requested TEXT, resolved TEXT,
-    realisation TEXT, reason TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
-CREATE TABLE read_back (
-    case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, quantity TEXT, subject TEXT, expected, found,
-    error, ok INTEGER, non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE audit (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, auditor TEXT, outcome TEXT, frames INTEGER,
     queries INTEGER, overlapping INTEGER, missed INTEGER, spurious INTEGER, undecided INTEGER, normal_error_max,
@@ -65,7 +57,6 @@ CREATE TABLE timings (
     samples INTEGER, mean_contacts, low, high, bodies INTEGER, first, mean, p95, p99, worst, real_time_factor,
     non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE INDEX cases_by_scenario ON cases (scenario, engine, preset, dt);
-CREATE INDEX metrics_by_name ON metrics (name, subject);
 )sql";
 
 /// Tables since schema 2: results computed from all cases of a run together.
@@ -166,7 +157,8 @@ void checkVersion(SQLite::Database& database, const std::filesystem::path& file)
                                  std::to_string(version) + ", expected at most " +
                                  std::to_string(kSchemaVersion));
     if (version < 1) throw std::runtime_error(file.string() + ": the store has no schema version");
-    if ((version >= kFirstSchemaWithSeals) != database.tableExists("seals"))
+    if ((version >= kFirstSchemaWithSeals) != database.tableExists("seals") ||
+        (version >= kFirstSchemaWithSharedLists) != database.tableExists("shared_settings"))
         throw std::runtime_error(file.string() + ": is damaged: its tables are not those of schema " +
                                  std::to_string(version));
 }
@@ -176,6 +168,7 @@ void upgrade(SQLite::Database& database) {
     const int version = schemaVersionOf(database);
     if (version >= kSchemaVersion) return;
     SQLite::Transaction transaction(database);
+    const Damage damage = version >= kFirstSchemaWithSeals ? findDamage(database) : Damage{};
     if (version < 2) database.exec(kAnalysisTables);
     if (version < 3) database.exec(kColumnsOfSchema3);
     if (version < 4) database.exec(kColumnsOfSchema4);
@@ -189,13 +182,16 @@ void upgrade(SQLite::Database& database) {
     if (version < 9) database.exec(kColumnsOfSchema9);
     if (version < 10) database.exec(kColumnsOfSchema10);
     if (version < 11) database.exec(kColumnsOfSchema11);
+    if (version < kFirstSchemaWithSharedLists) {
+        shareLists(database);
+        database.exec("DROP INDEX IF EXISTS metrics_by_name");
+    }
     if (version < kFirstSchemaWithSeals) {
         database.exec(kSealsTable);
         sealHeader(database);
         sealAnalysis(database);
-        SQLite::Statement select(database, "SELECT id FROM cases");
-        while (select.executeStep()) sealCase(database, select.getColumn(0).getString());
     }
+    sealCases(database, damage.cases);  // Damaged ones keep their checksums, which they do not fit.
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
 }
@@ -222,6 +218,7 @@ SQLite::Database createDatabase(const std::filesystem::path& file) {
     prepare(database);
     SQLite::Transaction transaction(database);
     database.exec(kTables);
+    database.exec(kSharedListTables);
     database.exec(kAnalysisTables);
     database.exec(kBenchTables);
     database.exec(kSealsTable);

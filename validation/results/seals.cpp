@@ -94,17 +94,16 @@ void sealTables(SQLite::Database& database, const char* const (&tables)[n]) {
     for (const char* table : tables) storeSeal(database, table, checksumOfTable(database, table));
 }
 
-std::vector<std::string> idsOfCases(SQLite::Database& database) {
-    std::vector<std::string> ids;
-    SQLite::Statement select(database, "SELECT id FROM cases");
-    while (select.executeStep()) ids.push_back(select.getColumn(0).getString());
-    return ids;
-}
-
 }  // namespace
 
 void sealCase(SQLite::Database& database, const std::string& caseId) {
     storeSeal(database, caseId, CaseReader(database).checksum(caseId));
+}
+
+void sealCases(SQLite::Database& database, const std::set<std::string>& skipped) {
+    CaseReader reader(database);
+    for (const std::string& id : idsOfCases(database))
+        if (!skipped.contains(id)) storeSeal(database, id, reader.checksum(id));
 }
 
 void sealHeader(SQLite::Database& database) {

@@ -20,6 +20,8 @@ inline constexpr const char* kSealsTable =
 
 /// To be called in the transaction that has written the rows.
 void sealCase(SQLite::Database& database, const std::string& caseId);
+/// Every case but those that are `skipped`.
+void sealCases(SQLite::Database& database, const std::set<std::string>& skipped);
 void sealHeader(SQLite::Database& database);
 void sealAnalysis(SQLite::Database& database);
 void removeSealsOfMissingCases(SQLite::Database& database);

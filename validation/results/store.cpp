@@ -20,6 +20,7 @@
 #include "validation/results/rows.hpp"
 #include "validation/results/schema.hpp"
 #include "validation/results/seals.hpp"
+#include "validation/results/shared_lists.hpp"
 
 namespace rigor::results {
 
@@ -164,6 +165,7 @@ void RunWriter::keepOnly(const std::vector<std::string>& ids) {
         for (const std::string& id : finishedCases())
             if (!wanted.contains(id)) (Binder(forget) << id).run();
         removeSealsOfMissingCases(impl_->database);
+        removeUnusedLists(impl_->database);
     });
 }
 

@@ -94,6 +94,11 @@ struct QuantityRow {
     std::optional<double> measured;  ///< empty: did not happen in this run
 };
 
+/// A setting as the engine resolved it.
+struct SettingRow {
+    std::string key, value;
+};
+
 struct LedgerRow {
     std::string topic, requested, resolved;
     std::string realisation;  ///< "exact", "approximate", "unsupported"

@@ -21,7 +21,7 @@ import pandas as pd
 from .errors import DamagedStore, NewerFormat, NotARun
 
 #: The newest schema of results.sqlite that this package knows (validation/results/store.hpp).
-NEWEST_SCHEMA = 12
+NEWEST_SCHEMA = 13
 
 _APPLICATION_ID = 0x52494752
 _LISTS = {"isolates", "tags", "observed", "metrics", "time_steps", "findings"}
@@ -68,8 +68,11 @@ class Store:
             return sqlite3.connect(uri + "?mode=ro", uri=True, timeout=10)
 
     def names(self) -> list[str]:
-        """Names of the tables, sorted."""
-        query = "SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name"
+        """Names of the tables, sorted; those that make up the views of a case (``shared_...``) are left out."""
+        query = (
+            "SELECT name FROM sqlite_master WHERE type IN ('table', 'view') AND name NOT LIKE 'shared!_%' ESCAPE '!'"
+            " ORDER BY name"
+        )
         return [name for (name,) in self._use(lambda database: database.execute(query).fetchall())]
 
     def table(self, name: str) -> pd.DataFrame:

@@ -15,7 +15,9 @@
 #include "validation/results/fields.hpp"
 #include "validation/results/files.hpp"
 #include "validation/results/hdf5_file.hpp"
+#include "validation/results/seals.hpp"
 #include "validation/results/store.hpp"
+#include "validation/results/tests/edited_store.hpp"
 #include "validation/results/tests/sample_run.hpp"
 #include "validation/results/trajectory_file.hpp"
 #include "validation/results/trial.hpp"
@@ -171,7 +173,7 @@ TEST(Damage, OneDamagedCaseCostsItselfAlone) {
     {
         SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
         database.exec("UPDATE metrics SET value = value + 1 WHERE case_id = '3' AND ordinal = 0");
-        database.exec("DELETE FROM ledger WHERE case_id = '5'");
+        database.exec("UPDATE cases SET ledger_list = NULL WHERE id = '5'");
     }
     const auto run = readRun(folder.path());
     ASSERT_THAT(run.damage, SizeIs(2));
@@ -197,9 +199,49 @@ TEST(Damage, ADamagedCaseIsWrittenAgain) {
     EXPECT_EQ(run.cases.size(), 12u);
 }
 
+/// Cases share their lists: a damaged one costs all of them, and the first that is written again gets a new one.
+TEST(Damage, ADamagedListIsNotTakenForAnother) {
+    const TemporaryFolder folder;
+    writeSampleStore(folder.path());
+    {
+        SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+        database.exec("UPDATE shared_settings SET value = 'other' WHERE ordinal = 0");
+    }
+    EXPECT_THAT(readRun(folder.path()).damage, SizeIs(12));
+    {
+        RunWriter writer(folder.path(), true);
+        for (const int i : {3, 4}) writer.writeCase(caseRow(std::to_string(i), i));
+    }
+    const auto run = readRun(folder.path());
+    EXPECT_THAT(run.damage, SizeIs(10));
+    EXPECT_EQ(run.cases.size(), 2u);
+    expectAsWritten(run);
+}
+
+/// Bringing a store up to date makes no damaged case a good one.
+TEST(Damage, OutlivesTheUpgradeOfAStore) {
+    const TemporaryFolder folder;
+    writeSampleStore(folder.path());
+    {
+        SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+        database.exec("UPDATE metrics SET value = value + 1 WHERE case_id = '3' AND ordinal = 0");
+        sample::takeBackSharedLists(database);
+        for (const std::string id : {"0", "1", "2", "4", "5", "6", "7", "8", "9", "10", "11"})
+            sealCase(database, id);
+        database.exec("PRAGMA user_version = 12");
+    }
+    { RunWriter(folder.path(), true); }
+    const auto run = readRun(folder.path());
+    ASSERT_THAT(run.damage, SizeIs(1));
+    EXPECT_THAT(run.damage[0], HasSubstr("case 3"));
+    EXPECT_EQ(run.cases.size(), 11u);
+    expectAsWritten(run);
+}
+
 TEST(Damage, AChangedHeaderIsRefused) {
-    for (const char* change : {"UPDATE scenarios SET text = 'x'", "UPDATE run SET suite = 'other'",
-                               "DELETE FROM environment", "DELETE FROM seals", "PRAGMA user_version = 10"}) {
+    for (const char* change :
+         {"UPDATE scenarios SET text = 'x'", "UPDATE run SET suite = 'other'", "DELETE FROM environment",
+          "DELETE FROM seals", "PRAGMA user_version = 10", "PRAGMA user_version = 12"}) {
         const TemporaryFolder folder;
         writeSampleStore(folder.path());
         {

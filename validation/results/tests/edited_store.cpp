@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "validation/results/tests/edited_store.hpp"
 
-#include <SQLiteCpp/SQLiteCpp.h>
-
 #include <sstream>
 
 #include "validation/results/seals.hpp"
@@ -19,9 +17,20 @@ bool isChange(const std::string& statement) {
 
 }  // namespace
 
+void takeBackSharedLists(SQLite::Database& database) {
+    for (const std::string name : {"settings", "ledger", "read_back"}) {
+        database.exec("CREATE TABLE own AS SELECT * FROM " + name);
+        database.exec("DROP VIEW " + name);
+        database.exec("ALTER TABLE own RENAME TO " + name);
+        database.exec("DROP TABLE shared_" + name);
+        database.exec("ALTER TABLE cases DROP COLUMN " + name + "_list");
+    }
+}
+
 void removeChecksums(const std::filesystem::path& store) {
     SQLite::Database database(store.string(), SQLite::OPEN_READWRITE);
     database.exec("PRAGMA journal_mode = DELETE");
+    takeBackSharedLists(database);
     database.exec("DROP TABLE seals; PRAGMA user_version = " + std::to_string(kFirstSchemaWithSeals - 1));
 }
 

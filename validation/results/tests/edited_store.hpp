@@ -4,10 +4,15 @@
 // Stores whose content is changed from outside.
 #pragma once
 
+#include <SQLiteCpp/SQLiteCpp.h>
+
 #include <filesystem>
 #include <string>
 
 namespace rigor::results::sample {
+
+/// Gives a store the tables of schema 12, in which every case has its settings, ledger and read-back to itself.
+void takeBackSharedLists(SQLite::Database& database);
 
 /// Makes a store one of the last schema without checksums, so that changed values reach the readers of their columns.
 void removeChecksums(const std::filesystem::path& store);

@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "validation/results/insertion_orders.hpp"
+#include "validation/results/seals.hpp"
+#include "validation/results/tests/edited_store.hpp"
 #include "validation/results/tests/sample_run.hpp"
 
 namespace rigor::results {
@@ -263,6 +265,7 @@ TEST(Store, AnalysisIsReplacedAsAWhole) {
 }
 
 void takeBackSeals(SQLite::Database& database) {
+    sample::takeBackSharedLists(database);
     database.exec("DROP TABLE seals");
 }
 
@@ -486,6 +489,80 @@ TEST(Store, OfSchema9HasEverythingButVerdictsOfOrders) {
     { RunWriter(folder.path(), true).writeCase(caseRow("b", 1)); }
     expectSame(expected, readRun(folder.path()).cases.at(0));
     expectSame(caseRow("b", 1), readRun(folder.path()).cases.at(1));
+}
+
+TEST(Store, OfSchema12HasListsOfEveryCase) {
+    const TemporaryFolder folder;
+    {
+        RunWriter writer(folder.path(), false);
+        writer.writeHeader(header());
+        for (const int i : {0, 1}) writer.writeCase(caseRow(std::to_string(i), i));
+    }
+    {
+        SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+        sample::takeBackSharedLists(database);
+        for (const char* id : {"0", "1"}) sealCase(database, id);
+        database.exec("PRAGMA user_version = 12");
+    }
+    const auto expectAll = [&](int version) {
+        const auto run = readRun(folder.path());
+        EXPECT_EQ(run.schemaVersion, version);
+        EXPECT_THAT(run.damage, testing::IsEmpty());
+        ASSERT_EQ(run.cases.size(), 2u);
+        for (const int i : {0, 1}) expectSame(caseRow(std::to_string(i), i), run.cases[i]);
+    };
+    expectAll(12);
+    { RunWriter(folder.path(), true); }
+    expectAll(kSchemaVersion);
+}
+
+int countIn(const TemporaryFolder& folder, const std::string& table) {
+    SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READONLY);
+    return database.execAndGet("SELECT count(*) FROM " + table).getInt();
+}
+
+TEST(Store, EqualListsAreStoredOnce) {
+    const TemporaryFolder folder;
+    std::vector<CaseRow> rows;
+    for (int i = 0; i < 5; ++i) rows.push_back(caseRow(std::to_string(i), i));
+    rows[3].settings["iterations"] = "21";
+    rows[3].readBack[0].found = 2.0;
+    rows[3].readBack[1].error = sample::kNanValue;
+    rows[4].ledger.clear();
+    {
+        RunWriter writer(folder.path(), false);
+        writer.writeHeader(header());
+        for (const CaseRow& row : rows) writer.writeCase(row);
+        for (const CaseRow& row : rows) writer.writeCase(row);  // The audit writes every case again.
+    }
+    EXPECT_EQ(countIn(folder, "shared_settings"), 4);
+    EXPECT_EQ(countIn(folder, "shared_ledger"), 1);
+    EXPECT_EQ(countIn(folder, "shared_read_back"), 4);
+    EXPECT_EQ(countIn(folder, "settings"), 10);
+    EXPECT_EQ(countIn(folder, "ledger"), 4);
+    EXPECT_EQ(countIn(folder, "read_back"), 10);
+    const auto run = readRun(folder.path());
+    ASSERT_EQ(run.cases.size(), 5u);
+    for (int i = 0; i < 5; ++i) {
+        expectSame("error", rows[i].readBack[1].error, run.cases[i].readBack[1].error);
+        if (i != 3) expectSame(rows[i], run.cases[i]);
+    }
+    EXPECT_EQ(run.cases[3].settings, rows[3].settings);
+    EXPECT_EQ(run.cases[3].readBack[0].found, 2.0);
+}
+
+TEST(Store, ListsGoWithTheirLastCase) {
+    const TemporaryFolder folder;
+    CaseRow other = caseRow("b", 1);
+    other.settings = {{"solver", "pgs"}};
+    RunWriter writer(folder.path(), false);
+    writer.writeHeader(header());
+    writer.writeCase(caseRow("a", 0));
+    writer.writeCase(other);
+    writer.keepOnly({"b"});
+    EXPECT_EQ(countIn(folder, "shared_settings"), 1);
+    EXPECT_EQ(countIn(folder, "shared_ledger"), 1) << "b has it still";
+    expectSame(other, readRun(folder.path()).cases.at(0));
 }
 
 TEST(Store, OneWriterAtATime) {
