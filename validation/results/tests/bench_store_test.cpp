@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "validation/results/store.hpp"
+#include "validation/results/tests/edited_store.hpp"
 #include "validation/results/tests/sample_run.hpp"
 
 namespace rigor::results {
@@ -180,6 +181,7 @@ TEST(BenchStore, ARunOfTheSchemaBeforeHasNone) {
         for (const char* column :
              {"scale", "relative_error", "ideal_error", "recorded", "order_min", "order_max", "order_count"})
             database.exec(std::string("ALTER TABLE metrics DROP COLUMN ") + column);
+        sample::takeBackSharedLists(database);
         database.exec("DROP TABLE seals");
         database.exec("PRAGMA user_version = 4");
     }
