@@ -9,10 +9,12 @@ import { ReplayView } from '../src/replay/view.ts';
 export interface Measured {
   bodies: number;
   contacts: number;
+  pictures: number; // beside each other, each with the reference as a ghost if there are several
   frames: number;
   own: number[]; // seconds of each drawing: placing, colouring, overlays
   all: number[]; // all threads, with three.js and the driver
   calls: number; // draw calls of one drawing
+  played: number; // frames that the browser showed in a second
   heap: number; // bytes more after all drawings; negative: garbage was collected
 }
 
@@ -44,7 +46,7 @@ function sceneOf(count: number) {
 }
 
 /** Frames that are written into the same memory. */
-function sourceOf(count: number, frames: number): FrameSource {
+function sourceOf(count: number, frames: number, spec: string, late: number): FrameSource {
   const n = count + 1;
   const side = Math.ceil(Math.cbrt(count));
   const three = () => new Float32Array(3 * count);
@@ -65,10 +67,10 @@ function sourceOf(count: number, frames: number): FrameSource {
   const orientation = new Float32Array(4 * n).map((_, i) => (i % 4 === 0 ? 1 : 0));
   const frame: Frame = { time: 0, step: 0, position, orientation, velocity: null, angularVelocity: null, contacts };
   return {
-    label: 'bench',
-    spec: 'bench',
+    label: spec,
+    spec,
     colour: '#0072b2',
-    ghost: false,
+    ghost: spec === '',
     note: '',
     events: [],
     times: Float64Array.from({ length: frames }, (_, i) => i / 60),
@@ -77,7 +79,7 @@ function sourceOf(count: number, frames: number): FrameSource {
       frame.step = index;
       for (let i = 0; i < count; ++i) {
         const [x, y, z] = [i % side, Math.floor(i / side) % side, Math.floor(i / side / side)];
-        const a = index / 20 + i;
+        const a = (index - late) / 20 + i;
         position[3 * (i + 1)] = x + 0.2 * Math.sin(a);
         position[3 * (i + 1) + 1] = y + 0.5;
         position[3 * (i + 1) + 2] = z + 0.2 * Math.cos(a);
@@ -96,18 +98,24 @@ function sourceOf(count: number, frames: number): FrameSource {
 
 const heap = () => (performance as unknown as { memory?: { usedJSHeapSize: number } }).memory?.usedJSHeapSize ?? 0;
 
-async function measure(bodies: number, frames: number, withContacts: boolean): Promise<Measured> {
+async function measure(bodies: number, frames: number, pictures: number, withContacts: boolean): Promise<Measured> {
   const element = document.createElement('div');
   element.style.cssText = 'width:1200px;height:700px';
   document.body.replaceChildren(element);
   const view = new ReplayView(element, sceneOf(bodies));
   const { layers } = view.options;
   view.setOptions({ layers: { ...layers, contacts: withContacts, normals: withContacts } });
-  view.setSources([sourceOf(bodies, frames)]);
-  const out: Measured = { bodies, contacts: withContacts ? bodies : 0, frames, own: [], all: [], calls: 0, heap: 0 };
+  const engines = Array.from({ length: pictures }, (_, i) => sourceOf(bodies, frames, `engine ${i + 1}`, i));
+  view.setSources(pictures > 1 ? [...engines, sourceOf(bodies, frames, '', 0)] : engines);
+  const contacts = withContacts ? bodies : 0;
+  const out: Measured = { bodies, contacts, pictures, frames, own: [], all: [], calls: 0, played: 0, heap: 0 };
+  let start = 0;
   const warm = 10;
   for (let i = 0; i < frames; ++i) {
-    if (i === warm) out.heap = heap();
+    if (i === warm) {
+      out.heap = heap();
+      start = performance.now();
+    }
     view.setTime(i / 60);
     view.draw();
     if (i >= warm) {
@@ -116,6 +124,7 @@ async function measure(bodies: number, frames: number, withContacts: boolean): P
     }
     await new Promise((resolve) => requestAnimationFrame(resolve));
   }
+  out.played = (1e3 * (frames - warm)) / (performance.now() - start);
   out.heap = heap() - out.heap;
   out.calls = view.spent.calls;
   view.dispose();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The bodies of one source: faces and edges, one draw call each for every kind of shape. Nothing is allocated when the
-// frame changes.
+// The bodies of one source: all faces in one draw call and all edges in another, but for what is seen through and what
+// has no faces. Nothing is allocated when the frame changes.
 import { type BufferGeometry, type Color, Group, InstancedMesh, LineSegments, Mesh, Sphere, Vector3 } from 'three';
 import { type Bounds, boundsOf } from './bounds.ts';
 import type { Frame } from './frames.ts';
@@ -12,15 +12,24 @@ import type { Geometry, Scene } from './scene.ts';
 import type { Template, TemplateCache } from './shape_meshes.ts';
 import { TintMaterial } from './tint_material.ts';
 
-/** All shapes that are drawn from one template. */
+/** Shapes that are drawn together. */
 interface Batch {
   faces: Mesh<BufferGeometry, TintMaterial> | null;
   edges: LineSegments<BufferGeometry, TintMaterial>;
-  target: InstancedMesh | null; // the same faces for rays; it is not drawn
+  targets: Target[];
   places: Places;
   glass: boolean; // walls before the scene
-  shapes: Int32Array; // places in the layer's list of shapes
+  shapes: Int32Array; // places in the layer's list of shapes, those of a template one after the other
 }
+
+/** The faces of the shapes of one template, for rays; they are not drawn. */
+interface Target {
+  mesh: InstancedMesh;
+  first: number; // place of its first shape in the batch
+}
+
+/** Shapes of one template: places in the layer's list. */
+type Alike = [template: Template, shapes: number[]];
 
 export interface ShapeOfLayer {
   body: number;
@@ -77,24 +86,40 @@ export class BodyLayer {
     this.#local = Float64Array.from(local);
     this.#scale = Float32Array.from(scale);
     this.rigid = new Float32Array(16 * this.shapes.length);
-    for (const [template, list] of members[0]) this.#addBatch(templates, template, list, false);
-    for (const [template, list] of members[1]) this.#addBatch(templates, template, list, true);
+    members.forEach((alike, glass) => {
+      const all = [...alike];
+      this.#addBatch(
+        templates,
+        all.filter(([template]) => template.faces),
+        glass === 1,
+      );
+      this.#addBatch(
+        templates,
+        all.filter(([template]) => !template.faces),
+        glass === 1,
+      );
+    });
   }
 
-  #addBatch(templates: TemplateCache, template: Template, shapes: number[], glass: boolean): void {
-    const n = shapes.length;
-    const places = new Places(n);
-    const edges = new LineSegments(templates.repeated(template.edges, n), new TintMaterial(false, places));
+  #addBatch(templates: TemplateCache, alike: Alike[], glass: boolean): void {
+    if (alike.length === 0) return;
+    const copiesOf = (part: 'faces' | 'edges') =>
+      templates.repeated(
+        alike.map(([template, list]) => ({ geometry: template[part] as BufferGeometry, count: list.length })),
+      );
+    const shapes = Int32Array.from(alike.flatMap(([, list]) => list));
+    const places = new Places(shapes.length);
+    const edges = new LineSegments(copiesOf('edges'), new TintMaterial(false, places));
     edges.frustumCulled = false;
     edges.material.transparent = true;
     edges.renderOrder = this.#flat ? 2 : 1;
     this.group.add(edges);
-    const batch: Batch = { faces: null, edges, target: null, places, glass, shapes: Int32Array.from(shapes) };
-    if (template.faces) this.#addFaces(batch, templates.repeated(template.faces, n), template.faces);
+    const batch: Batch = { faces: null, edges, targets: [], places, glass, shapes };
+    if (alike.every(([template]) => template.faces)) this.#addFaces(batch, copiesOf('faces'), alike);
     this.#batches.push(batch);
   }
 
-  #addFaces(batch: Batch, copies: BufferGeometry, one: BufferGeometry): void {
+  #addFaces(batch: Batch, copies: BufferGeometry, alike: Alike[]): void {
     const material = new TintMaterial(!this.#flat, batch.places);
     if (batch.glass) {
       material.transparent = true;
@@ -110,10 +135,15 @@ export class BodyLayer {
     batch.faces.renderOrder = this.#flat ? 1 : batch.glass ? 3 : 0;
     this.group.add(batch.faces);
     if (batch.glass) return; // a ray passes through it
-    batch.target = new InstancedMesh(one, material, 0);
-    batch.target.instanceMatrix = batch.places.attribute();
-    batch.target.count = batch.shapes.length;
-    batch.target.boundingSphere = everywhere; // a stale one would hide shapes from the pointer
+    let first = 0;
+    for (const [template, list] of alike) {
+      const mesh = new InstancedMesh(template.faces as BufferGeometry, material, 0);
+      mesh.instanceMatrix = batch.places.attribute(first);
+      mesh.count = list.length;
+      mesh.boundingSphere = everywhere; // a stale one would hide shapes from the pointer
+      batch.targets.push({ mesh, first });
+      first += list.length;
+    }
   }
 
   /** Matrices of all shapes as they stand in the buffers that are drawn: the axes stretched to the shape's size. */
@@ -146,13 +176,16 @@ export class BodyLayer {
   paint(colours: Float32Array): void {
     for (const batch of this.#batches) {
       const out = batch.places.colours;
+      let changed = false;
       for (let i = 0; i < batch.shapes.length; ++i) {
         const b = 3 * (this.shapes[batch.shapes[i] as number] as ShapeOfLayer).body;
-        out[4 * i] = colours[b] as number;
-        out[4 * i + 1] = colours[b + 1] as number;
-        out[4 * i + 2] = colours[b + 2] as number;
+        for (let k = 0; k < 3; ++k) {
+          const value = colours[b + k] as number;
+          changed ||= out[4 * i + k] !== value;
+          out[4 * i + k] = value;
+        }
       }
-      batch.places.colourTexture.needsUpdate = true;
+      if (changed) batch.places.colourTexture.needsUpdate = true;
     }
   }
 
@@ -190,19 +223,22 @@ export class BodyLayer {
 
   /** Meshes to aim at, and the shape behind an instance of one. */
   get targets(): InstancedMesh[] {
-    return this.#batches.flatMap(({ target }) => (target ? [target] : []));
+    return this.#batches.flatMap(({ targets }) => targets.map(({ mesh }) => mesh));
   }
   shapeOf(mesh: unknown, instance: number): ShapeOfLayer | null {
-    const batch = this.#batches.find((b) => b.target === mesh);
-    const shape = batch?.shapes[instance];
-    return shape === undefined ? null : (this.shapes[shape] as ShapeOfLayer);
+    for (const { targets, shapes } of this.#batches) {
+      const target = targets.find((t) => t.mesh === mesh);
+      const shape = target && shapes[target.first + instance];
+      if (shape !== undefined) return this.shapes[shape] as ShapeOfLayer;
+    }
+    return null;
   }
 
   dispose(): void {
-    for (const { faces, edges, target, places } of this.#batches) {
+    for (const { faces, edges, targets, places } of this.#batches) {
       faces?.material.dispose();
       edges.material.dispose();
-      target?.dispose();
+      for (const { mesh } of targets) mesh.dispose();
       places.dispose();
     }
   }

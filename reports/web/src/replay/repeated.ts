@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Many copies of a geometry as one mesh. Poses and colours of the copies are in textures that the vertex shader reads.
-// Instances would need less memory, but where the browser draws in software each of them costs as much as a mesh.
+// Many copies of some geometries as one mesh. Poses and colours of the copies are in textures that the vertex shader
+// reads. Instances would need less memory, but where the browser draws in software each of them costs as much as a mesh.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -31,9 +31,9 @@ export class Places {
     this.colourTexture.needsUpdate = true;
   }
 
-  /** The same matrices as an attribute, for rays. */
-  attribute(): InstancedBufferAttribute {
-    return new InstancedBufferAttribute(this.matrices, 16);
+  /** The same matrices from one copy on as an attribute, for rays. */
+  attribute(first: number): InstancedBufferAttribute {
+    return new InstancedBufferAttribute(this.matrices.subarray(16 * first), 16);
   }
 
   dispose(): void {
@@ -50,24 +50,43 @@ export const placesShader =
   ' texelFetch(matrices, at + ivec2(3, 0), 0)); }' +
   'vec3 colourOf(int i) { return texelFetch(colours, ivec2(i & 255, i >> 8), 0).rgb; }';
 
-/** `n` copies; the attribute `which` says which one a vertex belongs to. */
-export function repeated(geometry: BufferGeometry, n: number): BufferGeometry {
+/** A geometry and how often it is in a mesh. */
+export interface Copies {
+  geometry: BufferGeometry;
+  count: number;
+}
+
+/** All copies of all geometries as one; the attribute `which` says which one a vertex belongs to, in their order. */
+export function repeated(all: readonly Copies[]): BufferGeometry {
+  const verticesOf = (geometry: BufferGeometry) => geometry.getAttribute('position').count;
+  const sum = (of: (geometry: BufferGeometry) => number) => all.reduce((n, c) => n + c.count * of(c.geometry), 0);
+  const vertices = sum(verticesOf);
   const out = new BufferGeometry();
-  const vertices = geometry.getAttribute('position').count;
   for (const name of ['position', 'normal']) {
-    const from = geometry.getAttribute(name)?.array as TypedArray | undefined;
-    if (!from) continue;
-    const to = new Float32Array(n * from.length);
-    for (let i = 0; i < n; ++i) to.set(from, i * from.length);
+    if (!all.every(({ geometry }) => geometry.hasAttribute(name))) continue;
+    const to = new Float32Array(3 * vertices);
+    let at = 0;
+    for (const { geometry, count } of all)
+      for (let i = 0; i < count; ++i) {
+        const from = geometry.getAttribute(name).array as TypedArray;
+        to.set(from, at);
+        at += from.length;
+      }
     out.setAttribute(name, new BufferAttribute(to, 3));
   }
-  const which = Float32Array.from({ length: n * vertices }, (_, k) => Math.floor(k / vertices));
+  const which = new Float32Array(vertices);
+  const indexed = all.some(({ geometry }) => geometry.index !== null);
+  const index = new Uint32Array(indexed ? sum((g) => g.index?.count ?? verticesOf(g)) : 0);
+  let [copy, first, at] = [0, 0, 0];
+  for (const { geometry, count } of all)
+    for (let i = 0; i < count; ++i) {
+      const n = verticesOf(geometry);
+      which.fill(copy++, first, first + n);
+      const own = geometry.index?.array;
+      for (let k = 0; indexed && k < (own?.length ?? n); ++k) index[at++] = first + (own?.[k] ?? k);
+      first += n;
+    }
   out.setAttribute('which', new BufferAttribute(which, 1));
-  const index = geometry.index?.array;
-  if (!index) return out;
-  const to = new Uint32Array(n * index.length);
-  for (let k = 0; k < to.length; ++k)
-    to[k] = (index[k % index.length] as number) + vertices * Math.floor(k / index.length);
-  out.setIndex(new BufferAttribute(to, 1));
+  if (indexed) out.setIndex(new BufferAttribute(index, 1));
   return out;
 }

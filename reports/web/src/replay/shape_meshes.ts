@@ -18,7 +18,7 @@ import {
   Vector3,
 } from 'three';
 import { ConvexGeometry } from 'three/addons/geometries/ConvexGeometry.js';
-import { repeated } from './repeated.ts';
+import { type Copies, repeated } from './repeated.ts';
 import type { Geometry } from './scene.ts';
 import type { Vec3 } from './vectors.ts';
 
@@ -200,7 +200,7 @@ function heights(spacing: readonly number[], rows: number[][]): Template {
 /** Templates of one view, each made once. */
 export class TemplateCache {
   readonly #made = new Map<string, Template>();
-  readonly #repeated = new Map<BufferGeometry, Map<number, BufferGeometry>>();
+  readonly #repeated = new Map<string, BufferGeometry>();
   readonly #round: number;
 
   constructor(bodies = 1, software = false) {
@@ -248,23 +248,19 @@ export class TemplateCache {
     }
   }
 
-  /** So many copies of faces or edges as one geometry. */
-  repeated(geometry: BufferGeometry, n: number): BufferGeometry {
-    let known = this.#repeated.get(geometry);
-    if (!known) {
-      known = new Map();
-      this.#repeated.set(geometry, known);
-    }
-    let copies = known.get(n);
+  /** All copies as one geometry; layers that show the same shapes share it. */
+  repeated(all: readonly Copies[]): BufferGeometry {
+    const key = all.map(({ geometry, count }) => `${geometry.id}*${count}`).join();
+    let copies = this.#repeated.get(key);
     if (!copies) {
-      copies = repeated(geometry, n);
-      known.set(n, copies);
+      copies = repeated(all);
+      this.#repeated.set(key, copies);
     }
     return copies;
   }
 
   dispose(): void {
-    for (const known of this.#repeated.values()) for (const copies of known.values()) copies.dispose();
+    for (const copies of this.#repeated.values()) copies.dispose();
     this.#repeated.clear();
     for (const template of this.#made.values()) {
       template.faces?.dispose();

@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { BoxGeometry } from 'three';
+import { BoxGeometry, type BufferGeometry } from 'three';
 import { Pace } from '../../src/replay/pace.ts';
 import { repeated } from '../../src/replay/repeated.ts';
 
@@ -24,21 +24,30 @@ test('slow frames get fewer pixels, quick ones all of them, pauses change nothin
   assert.equal(ratioAfter(pace, 60, 33, 300_000), 1, '30 frames in a second are enough');
 });
 
-test('copies of a geometry have its vertices, its triangles, and their number', () => {
-  const one = new BoxGeometry(1, 2, 3);
-  const three = repeated(one, 3);
-  const vertices = one.getAttribute('position').count;
-  assert.equal(three.getAttribute('position').count, 3 * vertices);
-  const [first, last] = [one, three].map((g) => [...(g.index?.array ?? [])].slice(-3));
+test('copies of several geometries are one, with their vertices, their triangles, and their number', () => {
+  const box = new BoxGeometry(1, 2, 3);
+  const loose = new BoxGeometry(3, 2, 1).toNonIndexed();
+  const all = repeated([
+    { geometry: box, count: 2 },
+    { geometry: loose, count: 3 },
+  ]);
+  const counts = [box, loose].map((g) => g.getAttribute('position').count) as [number, number];
+  const total = 2 * counts[0] + 3 * counts[1];
+  const which = all.getAttribute('which');
+  assert.equal(which.count, total);
+  const owners = [0, 1, 2, 3, 4].flatMap((copy) => new Array(counts[copy < 2 ? 0 : 1]).fill(copy));
+  assert.deepEqual([...which.array], owners);
+  // Corner by corner the triangles are those of the geometries, one copy after the other.
+  const corners = (g: BufferGeometry) => {
+    const at = g.getAttribute('position');
+    const normal = g.getAttribute('normal');
+    const order = g.index ? [...g.index.array] : Array.from({ length: at.count }, (_, i) => i);
+    return order.map((i) => [at.getX(i), at.getY(i), at.getZ(i), normal.getX(i), normal.getY(i), normal.getZ(i)]);
+  };
+  assert.deepEqual(corners(all), [box, box, loose, loose, loose].flatMap(corners));
+  const drawn = [...(all.index?.array ?? [])].map((i) => which.getX(i));
   assert.deepEqual(
-    last,
-    first?.map((i) => i + 2 * vertices),
+    drawn,
+    [...drawn].sort((a, b) => a - b),
   );
-  const which = three.getAttribute('which');
-  assert.deepEqual(
-    [0, vertices - 1, vertices, 3 * vertices - 1].map((i) => which.getX(i)),
-    [0, 0, 1, 2],
-  );
-  for (const k of [0, 1, 2])
-    assert.equal(three.getAttribute('normal').array[3 * vertices + k], one.getAttribute('normal').array[k]);
 });

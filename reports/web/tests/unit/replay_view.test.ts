@@ -25,7 +25,7 @@ import { crossesBox, occludingBodies } from '../../src/replay/occluder_fade.ts';
 import { Overlays } from '../../src/replay/overlays.ts';
 import { nearestContact, rectAt, tile, toDevice, toPixels } from '../../src/replay/picking.ts';
 import { Player } from '../../src/replay/player.ts';
-import { readScene } from '../../src/replay/scene.ts';
+import { readScene, type Scene } from '../../src/replay/scene.ts';
 import { TemplateCache } from '../../src/replay/shape_meshes.ts';
 
 test('islands are joined by contacts and joints, never through what stands still', () => {
@@ -137,6 +137,48 @@ test('a ray hits the instance that stands there, after it has moved', () => {
   layer.place(frameAt([5, 0, 0, Number.NaN, 0, 0]));
   assert.equal(hitAt(5)?.body, 0);
   assert.equal(hitAt(10.5), null, 'what is not finite is nowhere');
+});
+
+test('shapes of all kinds are two meshes, what is seen through two more, and chains are lines', () => {
+  const shapes = [
+    { sphere: { radius: 1 } },
+    { box: { half_extents: [1, 1, 1] } },
+    { capsule: { radius: 1, half_length: 1 } },
+    { cylinder: { radius: 1, half_length: 1 } },
+  ];
+  const bodies = Array.from({ length: 12 }, (_, i) => ({ name: `b${i}`, shapes: [shapes[i % 4]] }));
+  const many = readScene({ dimension: 3, gravity: [0, -10, 0], duration: 1, bodies });
+  const meshes = (scene: Scene, glass = (_: number) => false) =>
+    new BodyLayer(scene, new TemplateCache(), undefined, glass).group.children.length;
+  assert.equal(meshes(many), 2);
+  assert.equal(
+    meshes(many, (b) => b < 4),
+    4,
+  );
+  const chain = {
+    chain: {
+      vertices: [
+        [0, 0],
+        [1, 0],
+        [2, 0],
+      ],
+    },
+  };
+  const flat = [
+    { name: 'line', type: 'static', shapes: [chain] },
+    { name: 'disc', shapes: [{ sphere: { radius: 1 } }] },
+  ];
+  assert.equal(meshes(readScene({ dimension: 2, gravity: [0, -10], duration: 1, bodies: flat })), 3);
+
+  // Each copy has the place and the colour of its own body.
+  const layer = new BodyLayer(many, new TemplateCache());
+  layer.place({
+    ...frameAt(Array.from({ length: 36 }, (_, k) => k)),
+    orientation: Array.from({ length: 48 }, (_, k) => (k % 4 === 0 ? 1 : 0)),
+  });
+  assert.equal(layer.drawn.length, 12);
+  for (const { body, matrix } of layer.drawn)
+    assert.deepEqual(matrix.slice(12, 15), [3 * body, 3 * body + 1, 3 * body + 2]);
 });
 
 const source = (spec: string, times: number[], events: ReplayEvent[] = [], positions?: number[][]): FrameSource => ({
