@@ -11,8 +11,11 @@ namespace rigor::scenario {
 std::string Problem::text() const {
     std::string text = file;
     if (line > 0) text += ":" + std::to_string(line);
-    return printable(text + ": " + (pointer.empty() ? "(document)" : pointer) + ": found " + found +
-                     ", expected " + expected + " [" + id + "]");
+    if (!pointer.empty())
+        text += ": " + pointer;
+    else if (line > 0)
+        text += ": (document)";  // without a line there may be no document at all
+    return printable(text + ": found " + found + ", expected " + expected + " [" + id + "]");
 }
 
 LoadError::LoadError(std::vector<Problem> problems)

@@ -17,7 +17,8 @@ struct Problem {
     std::string pointer;  ///< JSON pointer to the value, "" the whole document
     int line = 0;         ///< 1-based; 0 unknown
     std::string found, expected;
-    /// "file:line: pointer: found X, expected Y [id]"
+    /// "file:line: pointer: found X, expected Y [id]"; "(document)" stands for an empty pointer, and neither is
+    /// there where the line is unknown, too.
     std::string text() const;
 };
 

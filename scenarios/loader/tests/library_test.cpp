@@ -109,7 +109,9 @@ TEST(FindScenario, ByNameByPathAndWithAHint) {
         FAIL() << "found";
     } catch (const LoadError& error) {
         EXPECT_EQ(error.problems()[0].id, "scenario.not_found");
-        EXPECT_THAT(error.problems()[0].expected, testing::HasSubstr("did you mean 'box_stack'?"));
+        EXPECT_STREQ(error.what(),
+                     "box_stak: found no scenario or file of this name, expected a file, or a name of the "
+                     "library; did you mean 'box_stack'? [scenario.not_found]");
     }
 }
 
