@@ -42,14 +42,14 @@ void findReplays(const Run& run, std::size_t index, ByCase& found) {
     }
 }
 
-/// A data file under another name.
-std::string renamed(const fs::path& from, const std::string& name) {
+/// Content of a data file: all that follows its name.
+std::string contentOf(const fs::path& from) {
     std::ifstream in(from, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
     const auto comma = text.find(',');
     if (!in || comma == std::string::npos)
         throw std::runtime_error(from.string() + ": cannot be read as a data file of a report");
-    return "rigorData(\"" + name + "\"" + text.substr(comma);
+    return text.substr(comma);
 }
 
 }  // namespace
@@ -65,9 +65,11 @@ HistoryReplays historyReplays(const std::vector<Run>& runs, std::size_t newest) 
     for (const auto& [key, all] : found) {
         if (all.size() < 2) continue;
         const auto& [scenario, dt] = key;
+        std::map<std::string, std::string> known;  // content to name: runs with the same frames share a file
         for (const Found& f : all) {
-            out.files.push_back({f.from, f.name});
-            out.names[{f.run, scenario, dt}] = f.name;
+            const auto [same, isNew] = known.emplace(contentOf(f.from), f.name);
+            if (isNew) out.files.push_back({f.from, f.name});
+            out.names[{f.run, scenario, dt}] = same->second;
         }
         const std::string scene = "scene-" + std::to_string(out.scenes.size());
         if (out.scenes.emplace(scenario, scene).second) out.texts[scene] = texts[scenario];
@@ -80,7 +82,7 @@ void writeHistoryReplays(const HistoryReplays& replays, const fs::path& folder) 
     fs::create_directories(folder);
     for (const auto& [name, text] : replays.texts) writeFile(folder / (name + ".js"), dataFile(name, text));
     for (const auto& file : replays.files)
-        writeFile(folder / (file.name + ".js"), renamed(file.from, file.name));
+        writeFile(folder / (file.name + ".js"), "rigorData(\"" + file.name + "\"" + contentOf(file.from));
 }
 
 }  // namespace rigor::report

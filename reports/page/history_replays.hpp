@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Replays of a history: those that the reports of its newest runs have of the same scenario at the same time step. They
-// are copied beside the page of the history, which shows them side by side.
+// are copied beside the page of the history, which shows them side by side; one copy serves all runs where it is the same.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct HistoryReplays {
     std::map<std::string, std::string> texts;   ///< the scenario files, by the names of their data files
 };
 
-/// Replays of the `newest` last runs that at least two of them have.
+/// Replays of the `newest` last runs that at least two of them have. Throws std::runtime_error where one cannot be read.
 HistoryReplays historyReplays(const std::vector<results::Run>& runs, std::size_t newest);
 
 /// Copies the files and writes the scenarios. Throws std::runtime_error where one cannot be read or written.

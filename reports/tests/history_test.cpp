@@ -129,6 +129,27 @@ TEST(History, ReplaysOfTheNewestRunsAreBesideThePage) {
     EXPECT_TRUE(historyReplays(runs, 0).files.empty());
 }
 
+/// Frames that are the same in two runs are copied once, and both runs name that copy.
+TEST(History, RunsWithTheSameFramesShareAFile) {
+    const Folder scratch;
+    std::vector<results::Run> runs;
+    for (const char* name : {"before", "same", "changed"}) {
+        runs.push_back(runNamed((scratch.path / name).string()));
+        std::filesystem::create_directories(scratch.path / name / "data");
+        const std::string frames = std::string(name) == "changed" ? "others" : "frames";
+        writeFile(scratch.path / name / "data/replay-0-0.js",
+                  "rigorData(\"replay-0-0\",\"" + frames + "\");\n");
+    }
+    const auto replays = historyReplays(runs, 3);
+    std::vector<std::string> files, names;
+    for (const auto& file : replays.files) files.push_back(file.name);
+    for (const auto& [key, name] : replays.names) names.push_back(name);
+    EXPECT_EQ(files, (std::vector<std::string>{"run-0-replay-0-0", "run-2-replay-0-0"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"run-0-replay-0-0", "run-0-replay-0-0", "run-2-replay-0-0"}));
+    writeHistoryReplays(replays, scratch.path / "page");
+    EXPECT_FALSE(std::filesystem::exists(scratch.path / "page/run-1-replay-0-0.js"));
+}
+
 TEST(History, NoNameIsMarkup) {
     const std::vector<results::Run> runs{runNamed("first"), runNamed("second")};
     EXPECT_EQ(historyPage(runs, {""}).find("<img src=x"), std::string::npos);
