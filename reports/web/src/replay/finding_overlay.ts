@@ -92,6 +92,11 @@ export class FindingOverlay {
     return this.group.visible ? this.#lines.arrows : [];
   }
 
+  /** The witness points, on A and on B: the engine's first, then the exact ones. */
+  get points(): Vec3[] {
+    return this.group.visible ? this.#dots.places : [];
+  }
+
   set pixels(value: number) {
     this.#dots.pixels = value;
   }

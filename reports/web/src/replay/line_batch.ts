@@ -248,6 +248,11 @@ export class Dots {
     return Array.from(this.#points.subarray(0, 3 * this.#count));
   }
 
+  /** Dots as they stand in the buffer that is drawn [m]. */
+  get places(): Vec3[] {
+    return Array.from({ length: this.#count }, (_, i) => [...this.#points.slice(3 * i, 3 * i + 3)] as Vec3);
+  }
+
   begin(): void {
     this.#count = 0;
   }

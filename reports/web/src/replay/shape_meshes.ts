@@ -34,7 +34,7 @@ export interface Sized {
 
 /** Segments of a circle: fewer where there are many bodies, which are small then, and fewer still in software. */
 export function roundOf(bodies: number, software = false): number {
-  if (software) return bodies > 20 ? 14 : 24;
+  if (software) return bodies > 40 ? 10 : bodies > 20 ? 14 : 24;
   return bodies > 800 ? 14 : bodies > 150 ? 24 : 40;
 }
 

@@ -15,12 +15,14 @@ import type { ViewOptions } from './layers.ts';
 import { type ArrowScales, Overlays } from './overlays.ts';
 import type { Scene } from './scene.ts';
 import type { TemplateCache } from './shape_meshes.ts';
+import { drawsInSoftware } from './software.ts';
 
 export interface Drawn {
   bodies: BodyLayer['drawn'];
   arrows: Overlays['arrows'];
   lines: Overlays['lines'];
   dots: Overlays['dots'];
+  witnesses: FindingOverlay['points'];
 }
 
 export class SourceLayer {
@@ -77,6 +79,7 @@ export class SourceLayer {
       arrows: [...this.#overlays.arrows, ...this.#findings.arrows],
       lines: this.#overlays.lines,
       dots: this.#overlays.dots,
+      witnesses: this.#findings.points,
     };
   }
 
@@ -124,12 +127,14 @@ export class SourceLayer {
     this.#colour(options, theme, marked);
     this.bodies.paint(this.#colours);
     const ghost = this.source.ghost !== options.overlaid; // overlaid engines are ghosts on the reference
+    const behind = this.source.ghost && ghost;
     this.bodies.look(
       {
-        faces: options.layers.faces,
+        // In software the faces of a ghost, a tenth as strong as its outlines, would cost as much as those of an engine.
+        faces: options.layers.faces && !(behind && drawsInSoftware()),
         outlines: options.layers.outlines || ghost,
         ghost,
-        behind: this.source.ghost && ghost,
+        behind,
         ink: theme.ink,
         dark: theme.dark,
       },
