@@ -26,6 +26,16 @@ class Joints : public DynamicsTest {
     static Vec3 at(const BodyState& state, const Vec3& local) {
         return Pose{state.position, state.orientation} * local;
     }
+    /// Null, and what is lacking, where the library has the kind of joint but not this one of it.
+    std::unique_ptr<adapter::World> buildIfOffered(const Scenario& s, std::string& lacking) {
+        try {
+            return build(s, kStep);
+        } catch (const adapter::Unsupported& refused) {
+            EXPECT_EQ(refused.refusal(), adapter::Refusal::NotInLibrary) << refused.what();
+            lacking = refused.what();
+            return nullptr;
+        }
+    }
     /// The angle about z of a six_dof whose axis is x and whose normal is y.
     scenario::JointAxis& turnOf(Joint& joint) const { return joint.axes[is2d() ? 2 : 5]; }
     /// Angle of a physical pendulum, theta'' = -k sin(theta), released at rest at `theta`, after `time`.
@@ -106,13 +116,9 @@ TEST_P(Joints, ASixDofTravelActsAtItsAnchor) {
     joint.axes[0].motorMaxForce = 1000.0;
     turnOf(joint).mode = scenario::AxisMode::Free;
     s.joints.push_back(joint);
-    std::unique_ptr<adapter::World> world;
-    try {
-        world = build(s, kStep);
-    } catch (const adapter::Unsupported& refused) {
-        ASSERT_EQ(refused.refusal(), adapter::Refusal::NotInLibrary) << refused.what();
-        GTEST_SKIP() << refused.what();
-    }
+    std::string lacking;
+    const auto world = buildIfOffered(s, lacking);
+    if (!world) GTEST_SKIP() << lacking;
     double travel = 0.0, aside = 0.0, limit = 0.0, turned = 0.0;
     for (int i = 1; i <= 384; ++i) {
         world->step();
@@ -197,7 +203,9 @@ TEST_P(Joints, ARodKeepsItsLength) {
     Joint joint = jointOf(JointType::Distance, scenario::kNone, b, {}, {});
     joint.length = length;
     s.joints.push_back(joint);
-    auto world = build(s, kStep);
+    std::string lacking;
+    const auto world = buildIfOffered(s, lacking);
+    if (!world) GTEST_SKIP() << lacking;
     double drift = 0.0;
     for (int i = 0; i < 240; ++i) {
         world->step();
@@ -422,7 +430,9 @@ TEST_P(Joints, AWheelHasASpringAlongItsAxisAndAMotorAboutItsPin) {
         joint.axes[1].motorSpeed = 5.0;
         joint.axes[1].motorMaxForce = 0.2;
         s.joints.push_back(joint);
-        auto world = build(s, kStep);
+        std::string lacking;
+        const auto world = buildIfOffered(s, lacking);
+        if (!world) continue;  // with a pin that is not normal to the strut
         const auto spin = [&] { return dot(stateOf(*world, s, b).angularVelocity, pin); };
         double travel = 0.0, aside = 0.0, turned = 0.0;
         for (int i = 1; i <= 480; ++i) {

@@ -14,7 +14,8 @@ const capabilities = {
     joints: [
         ...['hinge', 'hinge.limit', 'hinge.motor', 'hinge.spring', 'slider', 'slider.limit', 'slider.motor', 'slider.spring'],
         ...['fixed', 'distance', 'distance.limit', 'distance.spring', 'wheel', 'wheel.limit', 'wheel.motor', 'wheel.spring'],
-        ...breaking(['hinge', 'slider', 'fixed', 'distance', 'wheel']),
+        ...['distance.motor', 'six_dof', 'six_dof.limit', 'six_dof.motor', 'six_dof.spring'],
+        ...breaking(['hinge', 'slider', 'fixed', 'distance', 'wheel', 'six_dof']),
     ],
     kinematic_bodies: true,
     damping: true,

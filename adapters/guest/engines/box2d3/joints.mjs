@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { planarJoint } from '../shared/planar_six_dof.mjs';
 import { directionOf, sidesOf, springOf } from '../shared/springs_2d.mjs';
 import { angleOf, B, withRot, withVec2 } from './library.mjs';
 
 /** The library keeps limits of hinges below this [rad]. */
 const kMostAngle = 0.99 * Math.PI;
+
+const kWheels = 'Box2D.deluxe.d.ts, interface b2WheelJointDef: limits and spring of the travel, motor of the angle';
+const kTravels = 'Box2D.deluxe.d.ts, b2Create...Joint: none leaves two travels free and holds anything';
 
 function setFrame(base, key, anchor, angle) {
     const frame = new B.b2Transform();
@@ -67,7 +71,7 @@ const kinds = {
             const [travel, angle] = ['travel', 'angle'].map((name) => joint.axes.find((given) => given.name === name));
             def.enableSpring = false;
             if (travel?.mode === 'locked' || angle?.mode === 'locked' || angle?.mode === 'limited' || travel?.motor_max_force > 0)
-                throw new rg.Unsupported('such a wheel', '', `joint '${joint.name}'`);
+                throw new rg.Unsupported('a wheel with locks, limits of its angle or a motor of its travel', kWheels, `joint '${joint.name}'`);
             if (travel) Object.assign(def, enabled(springOf(travel, sides, joint, along)));
             if (travel?.mode === 'limited')
                 Object.assign(def, {
@@ -86,6 +90,12 @@ const kinds = {
         set(def, axis, joint, sides, along) {
             const spring = enabled(springOf(axis, sides, joint, along));
             def.length = spring.enableSpring ? axis.target : joint.length;
+            if (axis.motor_max_force > 0) {
+                // The library drives distances of joints that have a spring.
+                const soft = spring.enableSpring ? {} : { enableSpring: true, hertz: 0, dampingRatio: 0 };
+                Object.assign(def, soft, { enableMotor: true, motorSpeed: axis.motor_speed, maxMotorForce: axis.motor_max_force });
+                if (!spring.enableSpring && axis.mode === 'free') return;
+            }
             if (spring.enableSpring && axis.mode !== 'limited') {
                 Object.assign(def, spring);
                 return;
@@ -102,7 +112,8 @@ const kinds = {
 };
 
 /** Adds a joint between two bodies of these poses at the start. */
-export function addJoint(world, scenario, joint, bodyA, bodyB, poseA, poseB) {
+export function addJoint(world, scenario, given, bodyA, bodyB, poseA, poseB) {
+    const joint = planarJoint(given, kTravels);
     const kind = kinds[joint.type];
     const [axis] = joint.axes;
     if ((joint.type === 'hinge' || joint.type === 'slider') && axis?.mode === 'locked')

@@ -14,6 +14,8 @@ const shapeTypes = 'cannon-es.d.ts, SHAPE_TYPES: none is of this kind';
 const constraints = 'cannon-es.d.ts, constraints: ConeTwist, Distance, Hinge, Lock, PointToPoint';
 const oneCoefficient = 'cannon-es.d.ts, class ContactMaterial: friction is the one coefficient';
 
+const kMeshes = 'cannon-es.js, Narrowphase: triangle meshes meet spheres and planes alone, and nothing else is flat';
+
 const capabilities = {
     dynamics: true,
     dimensions: [3],
@@ -22,7 +24,10 @@ const capabilities = {
         ...['sphere', 'box', 'cylinder', 'cone', 'hull', 'half_space', 'triangle_mesh', 'height_field'],
         ...['circle', 'polygon', 'half_plane'],
     ],
-    joints: ['ball', 'hinge', 'hinge.motor', 'fixed', 'distance', ...breaking(['ball', 'hinge', 'fixed', 'distance'])],
+    joints: [
+        ...['ball', 'ball.limit', 'cone_twist', 'cone_twist.limit', 'hinge', 'hinge.motor', 'fixed', 'distance', 'distance.spring'],
+        ...breaking(['ball', 'cone_twist', 'hinge', 'fixed', 'distance']),
+    ],
     contact_impulses: true,
     kinematic_bodies: true,
     damping: true,
@@ -36,6 +41,13 @@ const capabilities = {
         slider: constraints,
         wheel: constraints,
         six_dof: constraints,
+        segment: kMeshes,
+        chain: kMeshes,
+        'distance.motor': 'cannon-es.d.ts, class DistanceConstraint: the distance to keep alone',
+        'cone_twist.motor': 'cannon-es.d.ts, class ConeTwistConstraint: angles alone',
+        'distance.limit': 'cannon-es.d.ts, class DistanceConstraint: the distance to keep alone',
+        'ball.spring': 'cannon-es.d.ts, class Spring: between points of two bodies',
+        'cone_twist.spring': 'cannon-es.d.ts, class Spring: between points of two bodies',
         'hinge.spring': 'cannon-es.d.ts, class HingeConstraint: motor alone',
         'hinge.limit': 'cannon-es.d.ts, class HingeConstraint: motor alone',
         surface_velocity: 'cannon-es.d.ts, class FrictionEquation: the velocity of the bodies alone',

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-import { DistanceConstraint, HingeConstraint, LockConstraint, PointToPointConstraint } from 'cannon-es';
+import { ConeTwistConstraint, Constraint, DistanceConstraint, HingeConstraint, LockConstraint, PointToPointConstraint, Spring } from 'cannon-es';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { canBreak } from '../shared/breaking.mjs';
 import { fromCannon, toCannon } from './vectors.mjs';
 
 function refuse(joint, what, documentation = '') {
@@ -9,6 +10,7 @@ function refuse(joint, what, documentation = '') {
 }
 
 function refuseSprings(joint) {
+    if (joint.type === 'distance') return;
     for (const axis of joint.axes)
         if (axis.stiffness > 0 || axis.damping > 0) refuse(joint, `spring of a ${joint.type}`);
 }
@@ -57,14 +59,48 @@ class AnchoredDistance extends DistanceConstraint {
     }
 }
 
+/** The library's spring, whose force is applied where its other joints are prepared for the solver. */
+class SpringDistance extends Constraint {
+    constructor(a, b, options) {
+        super(a, b);
+        this.spring = new Spring(a, b, options);
+        // The library takes 0 for no value.
+        Object.assign(this.spring, { stiffness: options.stiffness, damping: options.damping });
+    }
+    update() {
+        this.spring.applyForce();
+    }
+}
+
+const kTwist = 'cannon-es.js, class ConeTwistConstraint, update: the tangents that measure the twist are found from either axis alone';
+
+/** A ball whose swing may be bounded. */
+function ballOrCone(joint, a, b) {
+    const [swing, twist] = ['swing', 'twist'].map((name) => joint.axes.find((axis) => axis.name === name));
+    const pivots = { pivotA: toCannon(a.place(joint.anchor_a)), pivotB: toCannon(b.place(joint.anchor_b)) };
+    const isLocked = swing?.mode === 'locked';
+    if (twist && twist.mode !== 'free') refuse(joint, 'cone_twist.limit of the twist', kTwist);
+    if (swing?.mode !== 'limited' && !isLocked) return new PointToPointConstraint(a.body, pivots.pivotA, b.body, pivots.pivotB);
+    const axes = { axisA: toCannon(a.turn(joint.axis_a)), axisB: toCannon(b.turn(joint.axis_b)) };
+    if (isLocked) return new HingeConstraint(a.body, b.body, { ...pivots, ...axes });
+    const created = new ConeTwistConstraint(a.body, b.body, { ...pivots, ...axes, angle: swing.upper ?? Math.PI });
+    created.twistEquation.enabled = false;
+    return created;
+}
+
 const makers = {
-    ball: (joint, a, b) =>
-        new PointToPointConstraint(a.body, toCannon(a.place(joint.anchor_a)), b.body, toCannon(b.place(joint.anchor_b))),
+    ball: ballOrCone,
+    cone_twist: ballOrCone,
     hinge,
     fixed: (_joint, a, b) => new LockConstraint(a.body, b.body),
     distance(joint, a, b) {
-        if (joint.axes[0].mode !== 'locked') refuse(joint, 'a distance that is no rod');
+        const [{ mode, stiffness, damping, target }] = joint.axes;
         const pivots = [toCannon(a.place(joint.anchor_a)), toCannon(b.place(joint.anchor_b))];
+        if (mode === 'free' && (stiffness > 0 || damping > 0) && !canBreak(joint)) {
+            const [localAnchorA, localAnchorB] = pivots;
+            return new SpringDistance(a.body, b.body, { restLength: target, stiffness, damping, localAnchorA, localAnchorB });
+        }
+        if (mode !== 'locked') refuse(joint, 'a distance with limits', 'cannon-es.d.ts, class DistanceConstraint: the distance to keep alone');
         return new AnchoredDistance(a.body, b.body, ...pivots, joint.length);
     },
 };

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import * as rg from '../../sdk/rigor_guest.mjs';
 import { canBreak } from '../shared/breaking.mjs';
-import { openAxes } from '../shared/six_dof.mjs';
-import { J, withVec3 } from './library.mjs';
+import { openAxes, wheelAsSixDof } from '../shared/six_dof.mjs';
+import { J, withQuat, withVec3 } from './library.mjs';
 
 function set(target, [x, y, z]) {
     target.Set(x, y, z);
@@ -47,7 +47,6 @@ const makers = {
         for (const vector of [settings.mTwistAxis1, settings.mTwistAxis2]) set(vector, axis);
         for (const vector of [settings.mPlaneAxis1, settings.mPlaneAxis2]) set(vector, normalTo(axis));
         const [twist, swing] = ['twist', 'swing'].map((name) => joint.axes.find((given) => given.name === name));
-        for (const given of [twist, swing]) if (given) refuseDrives(joint, given);
         const bound = (given, value) => (given === undefined || given.mode === 'free' ? Math.PI : (value ?? Math.PI));
         const isLocked = (given) => given?.mode === 'locked';
         const cone = isLocked(swing) ? 0 : bound(swing, swing?.upper);
@@ -84,10 +83,9 @@ const makers = {
     },
 };
 
-function refuseDrives(joint, axis) {
-    if (axis.stiffness > 0 || axis.damping > 0 || axis.motor_max_force > 0)
-        throw new rg.Unsupported(`motors and springs of a ${joint.type}`, '', `joint '${joint.name}'`);
-}
+/** A ball with limits or springs is a cone_twist whose twist is free. */
+const isPlain = (axis) => axis.mode === 'free' && axis.stiffness === 0 && axis.damping === 0 && axis.motor_max_force === 0;
+const isCone = (joint) => joint.type === 'cone_twist' || (joint.type === 'ball' && !joint.axes.every(isPlain));
 
 function limit(settings, joint, axis) {
     if (axis.mode === 'locked')
@@ -125,6 +123,35 @@ function drive(created, joint, axis) {
     }
 }
 
+/** Springs of swing and twist towards the start, and a motor of the twist. */
+function driveCone(created, joint) {
+    const constraint = J.castObject(created, J.SwingTwistConstraint);
+    const [twist, swing] = ['twist', 'swing'].map((name) => joint.axes.find((given) => given.name === name));
+    const refuse = (what, documentation) => {
+        throw new rg.Unsupported(what, documentation, `joint '${joint.name}'`);
+    };
+    const hasSpring = (axis) => axis?.stiffness > 0 || axis?.damping > 0;
+    if (swing?.motor_max_force > 0) refuse('a motor of a swing', kSwingMotor);
+    if (hasSpring(swing) && swing.target !== 0) refuse('a spring of a swing towards an angle', kSwingMotor);
+    if (hasSpring(twist) && twist.motor_max_force > 0) refuse('motor and spring of one twist', kSwingMotor);
+    if (hasSpring(swing)) {
+        spring(constraint.GetSwingMotorSettings().mSpringSettings, swing.stiffness, swing.damping);
+        constraint.SetSwingMotorState(J.EMotorState_Position);
+    }
+    if (hasSpring(twist)) {
+        spring(constraint.GetTwistMotorSettings().mSpringSettings, twist.stiffness, twist.damping);
+        constraint.SetTwistMotorState(J.EMotorState_Position);
+        const half = 0.5 * twist.target;
+        withQuat([Math.cos(half), Math.sin(half), 0, 0], (q) => constraint.SetTargetOrientationCS(q));
+    }
+    if (twist?.motor_max_force > 0) {
+        const most = twist.motor_max_force;
+        Object.assign(constraint.GetTwistMotorSettings(), { mMinTorqueLimit: -most, mMaxTorqueLimit: most });
+        constraint.SetTwistMotorState(J.EMotorState_Velocity);
+        withVec3([twist.motor_speed, 0, 0], (w) => constraint.SetTargetAngularVelocityCS(w));
+    }
+}
+
 /** Motors and springs of six coordinates: one kind of each for every axis, with targets as vectors. */
 function driveSix(created, joint) {
     const constraint = J.castObject(created, J.SixDOFConstraint);
@@ -153,12 +180,21 @@ function driveSix(created, joint) {
     withVec3(targets.slice(0, 3), (p) => constraint.SetTargetPositionCS(p));
 }
 
+const kSwingMotor = 'types.d.ts, class SwingTwistConstraint: its swing motor has a target as an orientation, none of an angle';
+const kSixDof = 'types.d.ts, class SixDOFConstraintSettings, mAxisX1 and mAxisY1';
+
+function kindOf(joint) {
+    if (joint.type === 'fixed' && canBreak(joint)) return 'fixed_that_breaks';
+    return isCone(joint) ? 'cone_twist' : joint.type;
+}
+
 /** Adds a joint. `poseA`: of the scenario's body A at the start; anchors and axes are given in the world. */
-export function addJoint(system, joint, bodyA, bodyB, poseA, poseB) {
+export function addJoint(system, given, bodyA, bodyB, poseA, poseB) {
+    const joint = given.type === 'wheel' ? wheelAsSixDof(given, poseA, poseB, kSixDof) : given;
     const anchorOf = (pose, anchor) => rg.sum(pose.position, rg.rotate(pose.orientation, anchor));
     const axis = rg.rotate(poseA.orientation, joint.axis_a);
     const normal = joint.normal_a && rg.rotate(poseA.orientation, joint.normal_a);
-    const kind = joint.type === 'fixed' && canBreak(joint) ? 'fixed_that_breaks' : joint.type;
+    const kind = kindOf(joint);
     const settings = makers[kind](joint, axis, normal);
     settings.mSpace = J.EConstraintSpace_WorldSpace;
     const placed = ['six_dof', 'cone_twist', 'fixed_that_breaks'].includes(kind) ? 'mPosition' : 'mPoint';
@@ -171,6 +207,7 @@ export function addJoint(system, joint, bodyA, bodyB, poseA, poseB) {
     J.destroy(settings);
     if (driven && joint.axes[0]) drive(created, joint, joint.axes[0]);
     if (joint.type === 'six_dof') driveSix(created, joint);
+    if (kind === 'cone_twist') driveCone(created, joint);
     system.AddConstraint(created);
     return created;
 }
@@ -180,19 +217,27 @@ const kReactions = {
     ball: 'PointConstraint',
     fixed: 'SixDOFConstraint',
     hinge: 'HingeConstraint',
+    slider: 'SliderConstraint',
     distance: 'DistanceConstraint',
+    six_dof: 'SixDOFConstraint',
+    wheel: 'SixDOFConstraint',
+    cone_twist: 'SwingTwistConstraint',
 };
 export const breakable = Object.keys(kReactions);
 
 /** Mean force and torque of a joint over the last `seconds`. */
-export function reactionOf(created, type, seconds) {
+export function reactionOf(created, given, seconds) {
+    const type = isCone(given) ? 'cone_twist' : given.type;
     const joint = J.castObject(created, J[kReactions[type]]);
     const length = (value) => {
         if (typeof value === 'number') return Math.abs(value);
         return value.Length ? value.Length() : Math.hypot(value.GetComponent(0), value.GetComponent(1));
     };
+    const force = length(joint.GetTotalLambdaPosition()) / seconds;
+    if (type === 'cone_twist')
+        return { force, torque: Math.hypot(joint.GetTotalLambdaTwist(), joint.GetTotalLambdaSwingY(), joint.GetTotalLambdaSwingZ()) / seconds };
     return {
-        force: length(joint.GetTotalLambdaPosition()) / seconds,
+        force,
         torque: joint.GetTotalLambdaRotation ? length(joint.GetTotalLambdaRotation()) / seconds : 0,
     };
 }

@@ -12,6 +12,8 @@ const joints = ['ball', 'fixed', 'distance', 'distance.limit', 'distance.spring'
 for (const type of ['hinge', 'slider']) joints.push(type, ...['limit', 'motor', 'spring'].map((f) => `${type}.${f}`));
 
 joints.push('cone_twist', 'cone_twist.limit', 'six_dof', 'six_dof.limit', 'six_dof.motor', 'six_dof.spring');
+joints.push('ball.limit', 'ball.spring', 'cone_twist.motor', 'cone_twist.spring');
+joints.push('wheel', 'wheel.limit', 'wheel.motor', 'wheel.spring');
 joints.push(...breaking(breakable));
 
 const oneCoefficient = 'types.d.ts, class ContactSettings: mCombinedFriction is the one coefficient of a contact';
@@ -20,8 +22,8 @@ const capabilities = {
     dimensions: [3],
     planar: true,
     shapes: [
-        ...['sphere', 'box', 'capsule', 'cylinder', 'hull', 'half_space', 'triangle_mesh', 'height_field'],
-        ...['circle', 'polygon', 'half_plane'],
+        ...['sphere', 'box', 'capsule', 'cylinder', 'cone', 'hull', 'half_space', 'triangle_mesh', 'height_field'],
+        ...['circle', 'polygon', 'half_plane', 'segment', 'chain'],
     ],
     joints,
     kinematic_bodies: true,
@@ -32,6 +34,7 @@ const capabilities = {
     contact_filters: true,
     shape_filters: true,
     library_lacks: {
+        'distance.motor': 'types.d.ts, class DistanceConstraint: limits and their spring',
         ellipsoid: 'types.d.ts, EShapeSubType: none is an ellipsoid',
         static_friction: oneCoefficient,
         rolling_friction: oneCoefficient,

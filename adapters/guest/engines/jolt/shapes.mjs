@@ -45,6 +45,7 @@ const builders = {
     capsule: (s) => new J.CapsuleShapeSettings(s.half_length, s.radius),
     cylinder: (s, radius) =>
         new J.CylinderShapeSettings(s.half_length, s.radius, Math.min(radius, s.half_length, s.radius)),
+    cone: (s) => new J.TaperedCylinderShapeSettings(s.half_length, 0, s.radius, 0),
     hull: (s, radius) => hullOf(s.vertices, radius),
     triangle_mesh: (s, _radius, user) => meshOf(s, user),
     height_field: (s, _radius, user) => oneSided(surfaceOf(s), user),

@@ -61,7 +61,7 @@ export class JoltWorld extends rg.World {
         const joints = addJoints(scenario, this.bodies, outside, (...joint) => addJoint(this.system, ...joint));
         // The library keeps the impulses of its last collision step.
         const last = dt / this.collisionSteps;
-        const reaction = (joint, index) => reactionOf(joint, scenario.joints[index].type, last);
+        const reaction = (joint, index) => reactionOf(joint, scenario.joints[index], last);
         this.breaking = new Breaking(scenario, joints, reaction, (joint) => joint.SetEnabled(false));
         this.system.OptimizeBroadPhase();
     }

@@ -3,6 +3,7 @@
 //
 // What MuJoCo does otherwise than the scenario asks, as measured (README.md).
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { ledgerOfBreaking } from '../shared/breaking.mjs';
 
 export function ledgerOf({ scenario, settings, text, dt }) {
     const { solver, cone, iterations, integrator } = settings;
@@ -31,6 +32,7 @@ export function ledgerOf({ scenario, settings, text, dt }) {
     if (text.motors.length > 0)
         lines.push(rg.approximate('motors', 'held exactly', 'a servo of the speed with a bound', 'the gain is the inertia at the start by the time step'));
     if (integrator === 'RK4') lines.push(rg.approximate('impulses', 'reported', 'not reported', "RK4's last stage is not at the start of the step"));
+    lines.push(...ledgerOfBreaking(scenario, 'forces of equalities (efc_force)'));
     const curved = scenario.bodies.some((body) => body.shapes.some(({ shape }) => shape === 'height_field'));
     if (curved) lines.push(rg.approximate('height_field', 'f64', 'f32', 'heights are kept in single precision'));
     return lines;

@@ -8,12 +8,14 @@ import { filterBits, mayTouch } from '../shared/filters.mjs';
 import { element } from './library.mjs';
 import { contactSolref } from './restitution.mjs';
 import { geomOf } from './shapes.mjs';
-import { coordinatesOf, planTree } from './tree.mjs';
+import { canBreak } from '../shared/breaking.mjs';
+import { canBeEquality, coordinatesOf, planTree, swingLimit } from './tree.mjs';
 
 /** A kinematic body is that much heavier than everything else, and is set to its motion after each step. */
 const kHeavy = 1e6;
 /** Pairs of geoms that are listed one by one at most. */
 const kMostPairs = 20000;
+const kEqualities = 'MuJoCo documentation, XML reference, equality: connect, weld, joint, tendon and flex; none of a slider, of limits or of motors';
 const kFree = { planar: ['slide', 'slide', 'hinge'], axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] };
 
 export const bodyName = (index) => (index < 0 ? 'world' : `b${index}`);
@@ -54,7 +56,9 @@ export class ModelText {
         this.chooseContacts();
         this.sites = new Map(); // body -> sites of tendons
         this.constraints = { tendons: [], equalities: [] };
+        this.constraintsOf = new Map(); // joint -> its equalities as {kind, index}
         for (const joint of this.plan.loops) this.addLoop(joint);
+        for (const joint of scenario.joints) if (swingLimit(joint) !== null) this.addCone(joint);
         this.xml = this.whole();
     }
 
@@ -163,11 +167,19 @@ export class ModelText {
             return kFree.planar.map((type, k) => element('joint', { type, axis: turn(kFree.axes[k]), name: `j${index}_${k}` }));
         }
         const { solref, solimp } = this.softness();
-        return coordinatesOf(joint, joint.body_a === index, this.normalInB(joint)).map(({ attributes, motor }, k) => {
+        return coordinatesOf(joint, joint.body_a === index, this.normalInB(joint), this.spinInA(joint)).map(({ attributes, motor }, k) => {
             const name = `j${index}_${k}`;
             if (motor) this.motors.push({ joint: name, ...motor });
             return element('joint', { name, ...attributes, solreflimit: solref, solimplimit: solimp });
         });
+    }
+
+    /** A wheel's pin in the frame of A at the start. */
+    spinInA({ body_a: a, body_b: b, spin_axis_b: spin }) {
+        if (!spin) return undefined;
+        const { bodies } = this.scenario;
+        const inWorld = rg.rotate(bodies[b].orientation, spin);
+        return a < 0 ? inWorld : rg.rotateBack(bodies[a].orientation, inWorld);
     }
 
     normalInB({ body_a: a, body_b: b, normal_a: normal }) {
@@ -211,23 +223,29 @@ export class ModelText {
     }
 
     // ------------------------------------------------------------------------------------------------- loops
-    addLoop(joint) {
-        const refuse = (what) => {
-            throw new rg.Unsupported(what, '', `joint '${joint.name}'`);
-        };
-        if (joint.type === 'distance') return this.addTendon(joint);
-        const plain = joint.axes.every((axis) => axis.mode === 'free' && axis.stiffness === 0 && axis.damping === 0 && axis.motor_max_force === 0);
-        if (joint.type !== 'fixed' && !plain) refuse(`limits, motors and springs of a ${joint.type} that closes a loop`);
-        const body = { body1: bodyName(joint.body_b), body2: joint.body_a < 0 ? undefined : bodyName(joint.body_a), ...this.softness() };
-        const connect = (anchor) => this.constraints.equalities.push(element('connect', { ...body, anchor }));
-        if (joint.type === 'ball' || (joint.type === 'hinge' && this.scenario.planar)) connect(joint.anchor_b);
-        else if (joint.type === 'hinge')
-            for (const side of [-0.25, 0.25]) connect(rg.sum(joint.anchor_b, rg.scaled(side, joint.axis_b)));
-        else if (joint.type === 'fixed') this.constraints.equalities.push(element('weld', body));
-        else refuse(`a ${joint.type} that closes a loop`);
+    addEquality(joint, kind, attributes) {
+        const { equalities } = this.constraints;
+        if (!this.constraintsOf.has(joint)) this.constraintsOf.set(joint, []);
+        this.constraintsOf.get(joint).push({ kind, index: equalities.length });
+        equalities.push(element(kind, attributes));
     }
 
-    addTendon(joint) {
+    addLoop(joint) {
+        const refuse = (what, documentation = '') => {
+            throw new rg.Unsupported(what, documentation, `joint '${joint.name}'`);
+        };
+        if (joint.type === 'distance') return this.addTendon(joint);
+        if (!canBeEquality(joint)) refuse(`a ${joint.type} with more than its kind that ${canBreak(joint) ? 'breaks' : 'closes a loop'}`, kEqualities);
+        const ends = { body1: bodyName(joint.body_b), body2: joint.body_a < 0 ? undefined : bodyName(joint.body_a), ...this.softness() };
+        const connect = (anchor) => this.addEquality(joint, 'connect', { ...ends, anchor });
+        // The anchor of a weld is in the frame of its second body.
+        if (joint.type === 'fixed') this.addEquality(joint, 'weld', { ...ends, anchor: joint.anchor_a });
+        else if (joint.type === 'ball' || this.scenario.planar) connect(joint.anchor_b);
+        else for (const side of [-0.25, 0.25]) connect(rg.sum(joint.anchor_b, rg.scaled(side, joint.axis_b)));
+    }
+
+    /** A straight tendon between two points: its name and its sites. */
+    straight(joint, pointA, pointB) {
         const name = `t${this.constraints.tendons.length}`;
         const site = (body, side, pos) => {
             const id = `${name}${side}`;
@@ -235,21 +253,37 @@ export class ModelText {
             this.sites.get(body).push(element('site', { name: id, pos }));
             return element('site', { site: id });
         };
-        const path = [site(joint.body_a, 'a', joint.anchor_a), site(joint.body_b, 'b', joint.anchor_b)];
+        return { name, path: [site(joint.body_a, 'a', pointA), site(joint.body_b, 'b', pointB)] };
+    }
+
+    limits(lower, upper) {
+        const { solref, solimp } = this.softness();
+        return { limited: 'true', range: [lower, upper], solreflimit: solref, solimplimit: solimp };
+    }
+
+    /**
+     * A swing's bound as a tendon's: two points a metre from the anchor, along the axes of A and B, are 2 sin(swing / 2) apart. A
+     * ball's own bound is that of its whole rotation, with the twist.
+     */
+    addCone(joint) {
+        const { name, path } = this.straight(joint, rg.sum(joint.anchor_a, joint.axis_a), rg.sum(joint.anchor_b, joint.axis_b));
+        this.constraints.tendons.push(element('spatial', { name, ...this.limits(0, 2 * Math.sin(0.5 * swingLimit(joint))) }, path));
+    }
+
+    addTendon(joint) {
+        const { name, path } = this.straight(joint, joint.anchor_a, joint.anchor_b);
         const [axis] = joint.axes;
         const attributes = { name };
-        const { solref, solimp } = this.softness();
-        if (axis.mode === 'limited')
-            Object.assign(attributes, {
-                limited: 'true',
-                range: [Math.max(0, axis.lower ?? 0), axis.upper ?? 1e10],
-                solreflimit: solref,
-                solimplimit: solimp,
-            });
+        if (axis.mode === 'limited') Object.assign(attributes, this.limits(Math.max(0, axis.lower ?? 0), axis.upper ?? 1e10));
+        if (axis.motor_max_force > 0) this.motors.push({ tendon: name, speed: axis.motor_speed, most: axis.motor_max_force });
         if (axis.stiffness > 0 || axis.damping > 0)
             Object.assign(attributes, { stiffness: axis.stiffness, damping: axis.damping, springlength: axis.target });
-        else if (axis.mode === 'locked')
-            this.constraints.equalities.push(element('tendon', { tendon1: name, solref, solimp }));
+        else if (axis.mode === 'locked') {
+            const { solref, solimp } = this.softness();
+            this.addEquality(joint, 'tendon', { tendon1: name, solref, solimp });
+        }
+        if (canBreak(joint) && !this.constraintsOf.has(joint))
+            throw new rg.Unsupported('a distance that breaks and is no rod', kEqualities, `joint '${joint.name}'`);
         this.constraints.tendons.push(element('spatial', attributes, path));
     }
 
@@ -258,8 +292,9 @@ export class ModelText {
         const { settings, scenario } = this;
         const worldbody = element('worldbody', {}, [...(this.sites.get(-1) ?? []), ...this.bodiesOn(-1)]);
         const pairs = [...this.excludes(), ...this.explicitPairs()];
-        const motors = this.motors.map(({ joint, most }) =>
-            element('velocity', { joint, kv: 1, forcelimited: 'true', forcerange: [-most, most] }),
+        // A ball's gear is the axis in its body about which it is turned.
+        const motors = this.motors.map(({ joint, tendon, gear, most }) =>
+            element('velocity', { joint, tendon, gear: gear && [...gear, 0, 0, 0], kv: 1, forcelimited: 'true', forcerange: [-most, most] }),
         );
         const { integrator, solver, cone, iterations, tolerance, noslip_iterations, impratio } = settings;
         const flags = { autoreset: 'disable', filterparent: 'disable', nativeccd: settings.native_ccd === 'on' ? 'enable' : 'disable' };

@@ -3,6 +3,7 @@
 //
 // MuJoCo 3 as a guest: its identity, its features, and its option keys.
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { breaking } from '../shared/breaking.mjs';
 import { collide } from './collide.mjs';
 import { M } from './library.mjs';
 import { MujocoWorld } from './world.mjs';
@@ -10,8 +11,12 @@ import { MujocoWorld } from './world.mjs';
 const geoms = 'MuJoCo documentation, XML reference, geom/type: none is of this kind';
 const joints = ['ball', 'fixed', 'distance', 'distance.limit', 'distance.spring', 'six_dof'];
 for (const type of ['hinge', 'slider']) joints.push(type, ...['limit', 'motor', 'spring'].map((f) => `${type}.${f}`));
-joints.push('six_dof.limit', 'six_dof.motor', 'six_dof.spring');
+joints.push('six_dof.limit', 'six_dof.motor', 'six_dof.spring', 'ball.limit', 'cone_twist', 'cone_twist.limit');
+joints.push('cone_twist.motor', 'distance.motor');
+joints.push('wheel', 'wheel.limit', 'wheel.motor', 'wheel.spring', ...breaking(['ball', 'hinge', 'fixed', 'distance']));
 
+const wholeRotation = 'MuJoCo documentation, XML reference, body/joint: range and stiffness of a ball are of its whole rotation';
+const equalities = 'MuJoCo documentation, XML reference, equality: connect, weld, joint, tendon, flex; only these have an active flag';
 const capabilities = {
     dynamics: true,
     collision: true,
@@ -34,6 +39,11 @@ const capabilities = {
     shape_filters: true,
     library_lacks: {
         cone: geoms,
+        segment: geoms,
+        chain: geoms,
+        'ball.spring': wholeRotation,
+        'cone_twist.spring': wholeRotation,
+        ...Object.fromEntries(['slider', 'wheel', 'six_dof', 'cone_twist'].map((type) => [`${type}.break`, equalities])),
         triangle_mesh: 'MuJoCo documentation, Computation, Collision detection: a mesh collides as its convex hull',
         surface_velocity: 'MuJoCo documentation, XML reference, geom: none of its attributes is a velocity',
         static_friction: 'MuJoCo documentation, XML reference, geom/friction: sliding, torsional, rolling',

@@ -4,6 +4,7 @@
 // A scenario in MuJoCo 3.
 import { performance } from 'node:perf_hooks';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { breakingOf } from './breaking.mjs';
 import { ledgerOf } from './ledger.mjs';
 import { M, modelOf, sixNumbers } from './library.mjs';
 import { bodyName, centered, ModelText, principalInertia } from './model.mjs';
@@ -11,10 +12,12 @@ import { restitutionIn } from './restitution.mjs';
 
 const kBody = M.mjtObj.mjOBJ_BODY.value;
 const kGeom = M.mjtObj.mjOBJ_GEOM.value;
+const kTendon = M.mjtObj.mjOBJ_TENDON.value;
 const kJoint = M.mjtObj.mjOBJ_JOINT.value;
 const kWhole = M.mjtState.mjSTATE_INTEGRATION.value;
 const kSchemes = { RK4: 'rk4', Euler: 'symplectic_euler', implicit: 'symplectic_euler', implicitfast: 'symplectic_euler' };
 const kFree = M.mjtJoint.mjJNT_FREE.value;
+const kPlane = [[1, 0, 0], [0, 1, 0]];
 const kBall = M.mjtJoint.mjJNT_BALL.value;
 const kSlide = M.mjtJoint.mjJNT_SLIDE.value;
 
@@ -32,6 +35,7 @@ export class MujocoWorld extends rg.World {
         this.data = new M.MjData(this.model);
         this.bodyIds = scenario.bodies.map((_, i) => M.mj_name2id(this.model, kBody, bodyName(i)));
         this.time = 0;
+        this.breaking = breakingOf(this);
         this.nameGeoms();
         this.setInertias();
         this.setMotors();
@@ -60,14 +64,21 @@ export class MujocoWorld extends rg.World {
     /** A motor is a servo of the speed, whose gain stops the coordinate's own inertia in one step, with its bound. */
     setMotors() {
         const { model, data } = this;
-        this.text.motors.forEach(({ joint, speed }, k) => {
-            const dof = model.jnt_dofadr[M.mj_name2id(model, kJoint, joint)];
-            const gain = model.dof_M0[dof] / this.dt;
+        this.text.motors.forEach(({ joint, tendon, gear, speed }, k) => {
+            const gain = this.inertiaOf(joint, tendon, gear) / this.dt;
             const width = model.actuator_gainprm.length / model.nu;
             model.actuator_gainprm[width * k] = gain;
             model.actuator_biasprm[width * k + 2] = -gain;
             data.ctrl[k] = speed;
         });
+    }
+
+    /** Of a coordinate at the start: of a joint, of a ball about `gear`, or of a tendon's length. */
+    inertiaOf(joint, tendon, gear) {
+        const { model } = this;
+        if (tendon) return 1 / model.tendon_invweight0[M.mj_name2id(model, kTendon, tendon)];
+        const dof = model.jnt_dofadr[M.mj_name2id(model, kJoint, joint)];
+        return gear ? gear.reduce((sum, x, i) => sum + x * x * model.dof_M0[dof + i], 0) : model.dof_M0[dof];
     }
 
     /** The solver's tolerance is relative to the mean inertia, which the heavy kinematic bodies must not be part of. */
@@ -146,7 +157,7 @@ export class MujocoWorld extends rg.World {
                 data.qvel.set(inOwn(relative), v);
             } else if (type === kSlide) {
                 const motion = this.slideOf(index, own, parent, anchor);
-                const direction = this.scenario.planar && this.text.plan.parents[index].joint === null ? [[1, 0, 0], [0, 1, 0]][k] : axis;
+                const direction = this.directionOf(index, parent, k, axis);
                 data.qpos[q] = model.qpos0[q] + rg.dot(motion.travel, direction);
                 data.qvel[v] = rg.dot(motion.velocity, direction);
             } else {
@@ -158,6 +169,21 @@ export class MujocoWorld extends rg.World {
                 data.qvel[v] = rg.dot(relative, axis);
             }
         }
+    }
+
+    /**
+     * The direction of a travel. It is the parent's, which may have turned against the body, but for a wheel's whose frame hangs on
+     * it: that is the body's own, `axis`.
+     */
+    directionOf(index, parent, k, axis) {
+        const { joint, parent: on } = this.text.plan.parents[index];
+        if (joint === null) return kPlane[k];
+        if (joint.type === 'wheel' && joint.body_a === index) return axis;
+        const base = on < 0 ? [1, 0, 0, 0] : this.scenario.bodies[on].orientation;
+        const j = this.model.body_jntadr[this.bodyIds[index]] + k;
+        const local = [...this.model.jnt_axis.slice(3 * j, 3 * j + 3)];
+        const atStart = rg.rotate(this.scenario.bodies[index].orientation, local);
+        return rg.rotate(parent.q, rg.rotateBack(base, atStart));
     }
 
     /** How the body has turned against its parent since the start, in its own axes. */
@@ -204,7 +230,8 @@ export class MujocoWorld extends rg.World {
         this.contactRows = this.starts ?? this.readContacts(true);
         this.afterStep();
         const iterations = this.data.solver_niter[0];
-        return { seconds, counters: { contacts: this.contactRows.length, solver_iterations: iterations } };
+        const broken = this.breaking.afterStep();
+        return { seconds, broken, counters: { contacts: this.contactRows.length, solver_iterations: iterations } };
     }
 
     /** Kinematic bodies are put where they belong; dampings of bodies are applied. */
@@ -275,6 +302,7 @@ export class MujocoWorld extends rg.World {
         if (numbers.length !== 1 + M.mj_stateSize(this.model, kWhole)) return false;
         this.time = numbers[0];
         M.mj_setState(this.model, this.data, [...numbers.slice(1)], kWhole);
+        this.breaking = breakingOf(this);
         this.refresh();
         return true;
     }

@@ -2,15 +2,19 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { DistanceJoint, PrismaticJoint, RevoluteJoint, RopeJoint, WeldJoint, WheelJoint } from 'planck';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { planarJoint } from '../shared/planar_six_dof.mjs';
 import { directionOf, sidesOf, springOf } from '../shared/springs_2d.mjs';
 import { angleOf, toPlanck } from './shapes.mjs';
+
+const kSprings = 'planck.d.ts, interfaces RevoluteJointOpt and PrismaticJointOpt: limits and a motor';
+const kTravels = 'planck.d.ts, classes derived from Joint: none leaves two travels free and holds anything';
 
 /** Limits and motor of a hinge or slider; `names` are those of the library's keys. */
 function drive(joint, names) {
     const [axis] = joint.axes;
     if (!axis) return {};
     if (axis.stiffness > 0 || axis.damping > 0)
-        throw new rg.Unsupported(`spring of a ${joint.type}`, '', `joint '${joint.name}'`);
+        throw new rg.Unsupported(`spring of a ${joint.type}`, kSprings, `joint '${joint.name}'`);
     if (axis.mode === 'locked')
         throw new rg.Unsupported(`a ${joint.type} whose coordinate is locked`, '', `joint '${joint.name}'`);
     const keys = {};
@@ -24,7 +28,8 @@ function drive(joint, names) {
 /** The library's keys of a spring. */
 const softness = (spring) => (spring ? { frequencyHz: spring.hertz, dampingRatio: spring.dampingRatio } : {});
 
-export function jointOf(scenario, joint, bodyA, bodyB, poseA, poseB) {
+export function jointOf(scenario, given, bodyA, bodyB, poseA, poseB) {
+    const joint = planarJoint(given, kTravels);
     const keys = {
         bodyA,
         bodyB,
@@ -56,6 +61,9 @@ export function jointOf(scenario, joint, bodyA, bodyB, poseA, poseB) {
     }
 }
 
+/** A wheel of frequency 0 has no number in the library after one step (measured): this is none for any mass [Hz]. */
+const kNoSpring = 1e-6;
+
 /** The library's wheels have a spring without a target, for which A's anchor is moved along the axis, and no limits. */
 function wheel(joint, keys, springAt) {
     const [travel, angle] = ['travel', 'angle'].map((name) => joint.axes.find((given) => given.name === name));
@@ -66,7 +74,8 @@ function wheel(joint, keys, springAt) {
     const motor = angle?.motor_max_force > 0;
     return new WheelJoint({
         ...keys,
-        frequencyHz: 0,
+        frequencyHz: kNoSpring,
+        dampingRatio: 0,
         ...softness(travel && springAt(travel)),
         localAnchorA: toPlanck(moved),
         localAxisA: toPlanck(joint.axis_a),

@@ -17,7 +17,8 @@ const capabilities = {
     joints: [
         ...['hinge', 'hinge.limit', 'hinge.motor', 'slider', 'slider.limit', 'slider.motor', 'fixed'],
         ...['distance', 'distance.limit', 'distance.spring', 'wheel', 'wheel.motor', 'wheel.spring'],
-        ...breaking(['hinge', 'slider', 'fixed', 'distance', 'wheel']),
+        ...['six_dof', 'six_dof.limit', 'six_dof.motor', 'six_dof.spring'],
+        ...breaking(['hinge', 'slider', 'fixed', 'distance', 'wheel', 'six_dof']),
     ],
     contact_impulses: true,
     kinematic_bodies: true,
@@ -32,6 +33,7 @@ const capabilities = {
         capsule: 'planck.d.ts, classes derived from Shape: box, chain, circle, edge, polygon',
         'hinge.spring': 'planck.d.ts, interface RevoluteJointOpt: limits and a motor',
         'slider.spring': 'planck.d.ts, interface PrismaticJointOpt: limits and a motor',
+        'distance.motor': 'planck.d.ts, interface DistanceJointOpt: length and softness',
         'wheel.limit': 'planck.d.ts, interface WheelJointOpt: none',
         static_friction: 'planck.d.ts, interface FixtureOpt: friction is the one coefficient',
         rolling_friction: 'planck.d.ts, interface FixtureOpt: friction is the one coefficient',

@@ -8,8 +8,10 @@ import { space } from './space.mjs';
 
 await RAPIER.init();
 
+const kinds = 'dynamics/impulse_joint.d.ts, class JointData in 2D: fixed, spring, rope, revolute, prismatic';
+
 serveRapier(space, 2, {
     shapes: ['circle', 'box', 'capsule', 'polygon', 'half_plane', 'segment', 'chain'],
     joints: [],
-    lacks: { '3D': 'README.md of @dimforge/rapier2d-compat: 3D is another package, rapier3d' },
+    lacks: { '3D': 'README.md of @dimforge/rapier2d-compat: 3D is another package, rapier3d', wheel: kinds, six_dof: kinds },
 });

@@ -4,7 +4,7 @@
 // Rapier's package in 2D, as shared/rapier_world.mjs needs it.
 import RAPIER from '@dimforge/rapier2d-compat';
 import * as rg from '../../sdk/rigor_guest.mjs';
-import { drive } from '../shared/rapier_joints.mjs';
+import { distanceData, drive } from '../shared/rapier_joints.mjs';
 
 const toRapier = ([x, y]) => ({ x, y });
 const fromVector = ({ x, y }) => [x, y, 0];
@@ -14,6 +14,7 @@ function dataOf(joint, a, b) {
     const anchorIn = ({ frame }, anchor) => toRapier(rg.rotate(frame, anchor));
     const [anchorA, anchorB] = [anchorIn(a, joint.anchor_a), anchorIn(b, joint.anchor_b)];
     const { JointData } = RAPIER;
+    if (joint.type === 'distance') return distanceData(RAPIER, joint, anchorA, anchorB);
     if (joint.type === 'hinge') return JointData.revolute(anchorA, anchorB);
     if (joint.type === 'fixed') return JointData.fixed(anchorA, 0, anchorB, 0);
     return JointData.prismatic(anchorA, anchorB, toRapier(rg.rotate(a.pose.orientation, joint.axis_a)));

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import RAPIER from '@dimforge/rapier3d-compat';
 import * as rg from '../../sdk/rigor_guest.mjs';
-import { drive, driveAxis } from '../shared/rapier_joints.mjs';
-import { openAxes } from '../shared/six_dof.mjs';
+import { distanceData, drive, driveAxis } from '../shared/rapier_joints.mjs';
+import { openAxes, wheelAsSixDof } from '../shared/six_dof.mjs';
 import { quatToRapier, toRapier } from './vectors.mjs';
 
 function anyNormal(axis) {
@@ -48,8 +48,16 @@ const data = {
     },
 };
 
+const kGeneric = 'dynamics/impulse_joint.d.ts, JointData.generic';
+
 /** Adds a joint. A side is a body of Rapier and the pose of the scenario's at the start. */
-export function addJoint(world, joint, a, b) {
+export function addJoint(world, given, a, b) {
+    const joint = given.type === 'wheel' ? wheelAsSixDof(given, a.pose, b.pose, kGeneric) : given;
+    if (joint.type === 'distance') {
+        const anchored = distanceData(RAPIER, joint, toRapier(joint.anchor_a), toRapier(joint.anchor_b));
+        world.createImpulseJoint(anchored, a.body, b.body, true).setContactsEnabled(joint.collide_connected);
+        return;
+    }
     const created = world.createImpulseJoint(data[joint.type](joint), a.body, b.body, true);
     // One frame in the world, seen from both bodies.
     const normal = joint.type === 'six_dof' ? joint.normal_a : undefined;

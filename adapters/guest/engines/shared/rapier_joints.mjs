@@ -2,6 +2,17 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import * as rg from '../../sdk/rigor_guest.mjs';
 
+const kRods = 'dynamics/impulse_joint.d.ts, enum JointType: Rope bounds a distance from above, Spring is soft';
+
+/** Data of a joint of distances: a rope or a spring between two anchors, which are the library's vectors. */
+export function distanceData(RAPIER, joint, anchorA, anchorB) {
+    const [{ mode, lower, upper, target, stiffness, damping }] = joint.axes;
+    const isSpring = stiffness > 0 || damping > 0;
+    if (mode === 'free' && isSpring) return RAPIER.JointData.spring(target, stiffness, damping, anchorA, anchorB);
+    if (mode === 'limited' && !isSpring && !(lower > 0) && upper !== null) return RAPIER.JointData.rope(upper, anchorA, anchorB);
+    throw new rg.Unsupported('a distance that is neither a rope nor a spring', kRods, `joint '${joint.name}'`);
+}
+
 const kUnitAxis = { hinge: 3, slider: 0 };
 
 /** Limits, motor or spring of a hinge or slider that Rapier has created. */

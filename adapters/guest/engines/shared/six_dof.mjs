@@ -19,3 +19,18 @@ export function openAxes(joint) {
         throw new rg.Unsupported('a six_dof with several angles that are not all free', '', `joint '${joint.name}'`);
     return open;
 }
+
+const kRightAngles = 'the axes of its joint of six coordinates are normal to each other';
+
+/**
+ * A wheel as a joint of six coordinates: its strut is the axis, its pin the third one. `poseA`, `poseB`: of its bodies at the start;
+ * `source`: where the library's documentation says that such axes are normal to each other.
+ */
+export function wheelAsSixDof(joint, poseA, poseB, source) {
+    const pin = rg.rotateBack(poseA.orientation, rg.rotate(poseB.orientation, joint.spin_axis_b));
+    if (Math.abs(rg.dot(pin, joint.axis_a)) > 1e-9)
+        throw new rg.Unsupported('a wheel whose pin is not normal to its strut', `${source}: ${kRightAngles}`, `joint '${joint.name}'`);
+    const names = { travel: 'x', angle: 'swing_z' };
+    const axes = joint.axes.map((axis) => ({ ...axis, name: names[axis.name] }));
+    return { ...joint, type: 'six_dof', normal_a: rg.cross(pin, joint.axis_a), axes };
+}
