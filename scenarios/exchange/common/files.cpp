@@ -2,9 +2,13 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "scenarios/exchange/common/files.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <fstream>
+#include <stdexcept>
 #include <utility>
 
 namespace rigor::models {
@@ -70,6 +74,20 @@ fs::path AssetFolders::find(const std::string& reference, const Place& place, co
         outside
             ? "'" + reference + "' lies outside the folder of the model; --assets FOLDER allows another"
             : "there is no file '" + reference + "' beside the model; --assets FOLDER names other places");
+}
+
+TemporaryFile::TemporaryFile(const std::string& prefix, const std::string& text) {
+    path_ = (std::filesystem::temp_directory_path() / (prefix + "-XXXXXX")).string();
+    const int descriptor = mkstemp(path_.data());
+    if (descriptor < 0) throw std::runtime_error("no temporary file can be made");
+    close(descriptor);
+    if (!(std::ofstream(path_, std::ios::binary) << text).flush())
+        throw std::runtime_error(path_ + " cannot be written");
+}
+
+TemporaryFile::~TemporaryFile() {
+    std::error_code error;
+    std::filesystem::remove(path_, error);
 }
 
 Licence findLicence(const fs::path& model) {

@@ -26,6 +26,20 @@ class AssetFolders {
     std::vector<std::filesystem::path> folders_;  ///< absolute and without links; the model's own first
 };
 
+/// A file of this text that goes away with this object.
+class TemporaryFile {
+  public:
+    /// Throws std::runtime_error where none can be written.
+    TemporaryFile(const std::string& prefix, const std::string& text);
+    ~TemporaryFile();
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    const std::string& path() const { return path_; }
+
+  private:
+    std::string path_;
+};
+
 /// A licence file beside a model or in a folder above it, and the SPDX name that its text shows; "" where none
 /// is found or known.
 struct Licence {

@@ -78,9 +78,8 @@ bool isNotANumber(const std::string& value) {
 class Judge {
   public:
     Judge(XmlFile& file, std::span<const ElementRule> rules, Report& report,
-          const std::function<bool(const std::string&, const std::string&)>& knows,
-          const std::string& library)
-        : file_(file), rules_(rules), report_(report), knows_(knows), library_(library) {}
+          const std::function<std::string(const std::string&, const std::string&)>& unread)
+        : file_(file), rules_(rules), report_(report), unread_(unread) {}
 
     /// True if the element must be removed.
     bool element(XMLElement& e, const std::string& parent) {
@@ -99,8 +98,8 @@ class Judge {
             return report_.leavesOut(rule->feature, shown, place, rule->why) || true;
         if (rule->verdict == Verdict::Feature) return true;
         if (text && isNotANumber(text)) report_.refuse(shown, place, "the value is not a number");
-        if (knows_ && !knows_(name, "")) {
-            report_.refuse(shown, place, "newer than " + library_ + " reads");
+        if (const std::string why = unread_ ? unread_(name, "") : ""; !why.empty()) {
+            report_.refuse(shown, place, why);
             return true;
         }
         attributes(e, parent, name, place);
@@ -153,8 +152,8 @@ class Judge {
             } else if (rule->verdict == Verdict::Read) {
                 if (attribute != "name" && attribute != "class" && isNotANumber(value))
                     report_.refuse(shown, place, "the value is not a number");
-                if (knows_ && !knows_(name, attribute))
-                    report_.refuse(shown, place, "newer than " + library_ + " reads");
+                const std::string why = unread_ ? unread_(name, attribute) : "";
+                if (!why.empty()) report_.refuse(shown, place, why);
             } else {
                 if (rule->verdict == Verdict::Numerics) report_.noPhysics(shown, place, whyOf(*rule));
                 remove = true;
@@ -166,8 +165,7 @@ class Judge {
     XmlFile& file_;
     std::span<const ElementRule> rules_;
     Report& report_;
-    const std::function<bool(const std::string&, const std::string&)>& knows_;
-    const std::string& library_;
+    const std::function<std::string(const std::string&, const std::string&)>& unread_;
 };
 
 void appendEscaped(std::string& out, const char* text) {
@@ -272,9 +270,8 @@ void XmlFile::expandIn(XMLElement& parent, const Resolve& resolve) {
 }
 
 void applyRules(XmlFile& file, std::span<const ElementRule> rules, Report& report,
-                const std::function<bool(const std::string&, const std::string&)>& knows,
-                const std::string& library) {
-    Judge judge(file, rules, report, knows, library);
+                const std::function<std::string(const std::string&, const std::string&)>& unread) {
+    Judge judge(file, rules, report, unread);
     if (judge.element(*file.root(), ""))
         throw Refusal(file.place(*file.root()), "nothing of the file can be read");
 }

@@ -72,12 +72,10 @@ class XmlFile {
 };
 
 /// Judges every element below `root` by the rules; what is left out, and what has no physics, is removed from the
-/// document. `knows`, where given, returns whether the library that reads on knows the attribute ("" is the element); a
-/// thing to be read that it does not know is refused as newer than `library`.
+/// document. `unread`, where given, returns why a thing to be read can not be (attribute "" is the element), "" where it can.
 void applyRules(
     XmlFile& file, std::span<const ElementRule> rules, Report& report,
-    const std::function<bool(const std::string& element, const std::string& attribute)>& knows = {},
-    const std::string& library = "");
+    const std::function<std::string(const std::string& element, const std::string& attribute)>& unread = {});
 
 /// The document as text in which every element stands on its line of the file, where the order allows it.
 std::string textOnSameLines(const tinyxml2::XMLElement& root);

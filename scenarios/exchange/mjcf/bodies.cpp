@@ -19,7 +19,7 @@ using scenario::Pose;
 using scenario::Vec3;
 
 Pose worldPose(const Conversion& c, int body) {
-    return {c.point(c.d.xpos, body), normalized(c.turn(c.d.xquat, body))};
+    return {c.point(c.m.xpos, body), normalized(c.turn(c.m.xquat, body))};
 }
 
 bool isStatic(const Conversion& c, int body) {
@@ -33,35 +33,33 @@ Body convert(const Conversion& c, int body) {
         out.type = BodyType::Kinematic;
     else if (isStatic(c, body))
         out.type = BodyType::Static;
-    if (c.isOff(mjDSBL_CONTACT)) out.collides = false;
+    if (c.isOff("contact")) out.collides = false;
     if (out.type != BodyType::Dynamic) return out;
     const Mat3 r = toMatrix(c.turn(c.m.body_iquat, body));
     const Vec3 moments = c.point(c.m.body_inertia, body);
     out.massProperties = {c.m.body_mass[body], c.point(c.m.body_ipos, body),
                           r * Mat3::diagonal(moments.x, moments.y, moments.z) * transpose(r)};
-    mjtNum velocity[6];
-    mj_objectVelocity(&c.m, &c.d, mjOBJ_BODY, body, velocity, 0);
-    out.angularVelocity = {velocity[0], velocity[1], velocity[2]};
-    out.velocity = {velocity[3], velocity[4], velocity[5]};
+    out.angularVelocity = c.point(c.m.body_velocity, 2 * body);
+    out.velocity = c.point(c.m.body_velocity, 2 * body + 1);
     const auto& compensation = c.places.gravityCompensation;
     if (static_cast<std::size_t>(body) < compensation.size())
         out.gravityScale = 1.0 - compensation[static_cast<std::size_t>(body)];
     return out;
 }
 
-scenario::HeightField heightField(const mjModel& m, int id) {
+scenario::HeightField heightField(const CompiledModel& m, int id) {
     // The grid of a scenario lies along its x and z; its x is the model's y, its z the model's x.
-    const mjtNum* size = m.hfield_size + 4 * id;
+    const double* size = m.hfield_size.from(4 * id);
     scenario::HeightField field;
     field.columns = m.hfield_nrow[id];
     field.rows = m.hfield_ncol[id];
     field.spacingX = 2.0 * size[1] / (field.columns - 1);
     field.spacingZ = 2.0 * size[0] / (field.rows - 1);
-    const float* data = m.hfield_data + m.hfield_adr[id];
+    const double* data = m.hfield_data.from(m.hfield_adr[id]);
     double lowest = 1e300;
     for (int k = 0; k < field.rows; ++k)
         for (int i = 0; i < field.columns; ++i) {
-            field.heights.push_back(size[2] * static_cast<double>(data[i * field.rows + k]));
+            field.heights.push_back(size[2] * data[i * field.rows + k]);
             lowest = std::min(lowest, field.heights.back());
         }
     field.thickness = size[3] + lowest;
@@ -69,15 +67,15 @@ scenario::HeightField heightField(const mjModel& m, int id) {
 }
 
 /// The convex hull with which the library collides a mesh: its vertices, and its triangles.
-scenario::TriangleMesh hullOf(const mjModel& m, int mesh) {
-    const int* graph = m.mesh_graph + m.mesh_graphadr[mesh];
+scenario::TriangleMesh hullOf(const CompiledModel& m, int mesh) {
+    const int* graph = m.mesh_graph.from(m.mesh_graphadr[mesh]);
     const int vertices = graph[0], faces = graph[1];
     const int* global = graph + 2 + vertices;
     const int* face = global + vertices + vertices + 3 * faces;
     scenario::TriangleMesh out;
     std::map<int, int> local;
     for (int i = 0; i < vertices; ++i) {
-        const float* v = m.mesh_vert + 3 * (m.mesh_vertadr[mesh] + global[i]);
+        const double* v = m.mesh_vert.from(3 * (m.mesh_vertadr[mesh] + global[i]));
         local[global[i]] = i;
         out.vertices.push_back({v[0], v[1], v[2]});
     }
@@ -174,9 +172,14 @@ Place Conversion::placeOf(const std::vector<Place>& list, int index) const {
     return i < list.size() ? list[i] : Place{options.file.filename().string(), 0};
 }
 
-std::string Conversion::nameOf(mjtObj kind, int index, const std::string& otherwise) const {
-    const char* name = mj_id2name(&m, kind, index);
-    return name && *name ? name : otherwise;
+int Conversion::endOf(int body) const {
+    const int index = bodyOf[static_cast<std::size_t>(body)];
+    if (index == kNone) return kNone;
+    return builder.scene.bodies[static_cast<std::size_t>(index)].type == BodyType::Static ? kNone : index;
+}
+
+std::string Conversion::nameOf(const Array<std::string>& names, int index, const std::string& otherwise) {
+    return names[index].empty() ? otherwise : names[index];
 }
 
 void addBodies(Conversion& c) {
@@ -194,7 +197,7 @@ void addBodies(Conversion& c) {
             continue;
         }
         const std::string name =
-            body == 0 ? "ground" : c.nameOf(mjOBJ_BODY, body, "body_" + std::to_string(body));
+            body == 0 ? "ground" : c.nameOf(c.m.body_names, body, "body_" + std::to_string(body));
         c.bodyOf.push_back(c.builder.addBody(name, convert(c, body), place));
     }
 }

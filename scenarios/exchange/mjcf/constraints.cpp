@@ -21,20 +21,18 @@ using scenario::Vec3;
 
 constexpr double kMostGap = 1e-9;  ///< [m, rad] largest violation at the start that is rounding
 
-/// A body of the scenario for joints: the world where it does not move.
-int endOf(const Conversion& c, int body) {
-    const int index = c.bodyOf[static_cast<std::size_t>(body)];
-    if (index == kNone) return kNone;
-    return c.builder.scene.bodies[static_cast<std::size_t>(index)].type == scenario::BodyType::Static ? kNone
-                                                                                                      : index;
-}
+/// Bodies of an equality, and where it holds them at the start.
+struct Ends {
+    int one, two;
+    Vec3 at;
+};
 
-double violationOf(const Conversion& c, int equality) {
-    double most = 0.0;
-    for (int row = 0; row < c.d.nefc; ++row)
-        if (c.d.efc_type[row] == mjCNSTR_EQUALITY && c.d.efc_id[row] == equality)
-            most = std::max(most, std::abs(c.d.efc_pos[row]));
-    return most;
+Ends endsOf(const Conversion& c, int e) {
+    const int one = c.m.eq_obj1id[e], two = c.m.eq_obj2id[e];
+    const bool ofSites = !c.m.eq_objtype.empty() && c.m.eq_objtype[e] == mjOBJ_SITE;
+    if (ofSites) return {c.m.site_bodyid[one], c.m.site_bodyid[two], c.point(c.m.site_xpos, one)};
+    const Vec3 local = c.m.eq_type[e] == mjEQ_WELD ? Vec3{} : c.point(c.m.eq_data, e, mjNEQDATA);
+    return {one, two, c.point(c.m.xpos, one) + rotate(c.turn(c.m.xquat, one), local)};
 }
 
 void addEquality(Conversion& c, int e) {
@@ -42,21 +40,30 @@ void addEquality(Conversion& c, int e) {
     const bool isWeld = c.m.eq_type[e] == mjEQ_WELD;
     const std::string shown = isWeld ? "<weld>" : "<connect>";
     if (c.m.eq_active[e] == 0) return c.report.noPhysics(shown, place, "it is not active");
-    if (c.isOff(mjDSBL_EQUALITY)) return c.report.noPhysics(shown, place, "the file switches equalities off");
+    if (c.isOff("equality")) return c.report.noPhysics(shown, place, "the file switches equalities off");
     if (!isWeld && c.m.eq_type[e] != mjEQ_CONNECT)
         return c.report.refuse("<equality>", place, "only connect and weld have a counterpart");
-    int one = c.m.eq_obj1id[e], two = c.m.eq_obj2id[e];
-    const Vec3 local = isWeld ? Vec3{} : c.point(c.m.eq_data + static_cast<std::ptrdiff_t>(mjNEQDATA) * e, 0);
-    const Vec3 at = c.point(c.d.xpos, one) + rotate(c.turn(c.d.xquat, one), local);
-    int a = endOf(c, one), b = endOf(c, two);
+    const Ends ends = endsOf(c, e);
+    int a = c.endOf(ends.one), b = c.endOf(ends.two);
     if (b == kNone) std::swap(a, b);
     if (b == kNone || a == b)
         return c.report.noPhysics(shown, place, "it connects two bodies that do not move");
-    if (violationOf(c, e) > kMostGap)
+    if (c.m.eq_violation[e] > kMostGap)
         return c.report.refuse(shown, place, "the bodies are not where it holds them at the start");
-    const std::string name = c.nameOf(mjOBJ_EQUALITY, e, "equality_" + std::to_string(e));
-    c.builder.addJoint(name, isWeld ? JointType::Fixed : JointType::Ball, a, b, at, {0.0, 0.0, 1.0}, place)
+    const std::string name = c.nameOf(c.m.equality_names, e, "equality_" + std::to_string(e));
+    c.builder
+        .addJoint(name, isWeld ? JointType::Fixed : JointType::Ball, a, b, ends.at, {0.0, 0.0, 1.0}, place)
         .collideConnected = true;
+}
+
+/// MuJoCo 3 has springs with a dead band, and springs and dampers whose force is a polynomial.
+bool isPlainSpring(const Conversion& c, int t) {
+    const auto isZero = [t](const Array<double>& numbers, int width) {
+        return numbers.empty() || std::all_of(numbers.from(width * t), numbers.from(width * (t + 1)),
+                                              [](double x) { return x == 0.0; });
+    };
+    return isZero(c.m.tendon_stiffnesspoly, 2) && isZero(c.m.tendon_dampingpoly, 2) &&
+           isZero(c.m.tendon_deadband, 1);
 }
 
 void addTendon(Conversion& c, int t) {
@@ -64,9 +71,12 @@ void addTendon(Conversion& c, int t) {
     const int first = c.m.tendon_adr[t];
     const bool isPlain = c.m.tendon_num[t] == 2 && c.m.wrap_type[first] == mjWRAP_SITE &&
                          c.m.wrap_type[first + 1] == mjWRAP_SITE;
-    const bool isLimited = c.m.tendon_limited[t] != 0 && !c.isOff(mjDSBL_LIMIT);
+    const bool isLimited = c.m.tendon_limited[t] != 0 && !c.isOff("limit");
+    if (!isPlainSpring(c, t))
+        return c.report.refuse("<spatial>", place,
+                               "a spring with a dead band or a force that is not linear has no counterpart");
     const bool isSpring =
-        !c.isOff(mjDSBL_PASSIVE) && (c.m.tendon_stiffness[t] > 0.0 || c.m.tendon_damping[t] > 0.0);
+        !c.isOff("passive") && (c.m.tendon_stiffness[t] > 0.0 || c.m.tendon_damping[t] > 0.0);
     if (!isLimited && !isSpring)
         return c.report.noPhysics("<spatial>", place, "a tendon without limit and spring");
     if (!isPlain) {
@@ -74,14 +84,14 @@ void addTendon(Conversion& c, int t) {
         return;
     }
     const int siteA = c.m.wrap_objid[first], siteB = c.m.wrap_objid[first + 1];
-    int a = endOf(c, c.m.site_bodyid[siteA]), b = endOf(c, c.m.site_bodyid[siteB]);
-    Vec3 pointA = c.point(c.d.site_xpos, siteA), pointB = c.point(c.d.site_xpos, siteB);
+    int a = c.endOf(c.m.site_bodyid[siteA]), b = c.endOf(c.m.site_bodyid[siteB]);
+    Vec3 pointA = c.point(c.m.site_xpos, siteA), pointB = c.point(c.m.site_xpos, siteB);
     if (b == kNone) {
         std::swap(a, b);
         std::swap(pointA, pointB);
     }
     if (a == b) return c.report.noPhysics("<spatial>", place, "its ends do not move against each other");
-    const std::string name = c.nameOf(mjOBJ_TENDON, t, "tendon_" + std::to_string(t));
+    const std::string name = c.nameOf(c.m.tendon_names, t, "tendon_" + std::to_string(t));
     Joint& made = c.builder.addJoint(name, JointType::Distance, a, b, pointA, {0.0, 0.0, 1.0}, place);
     made.anchorB = inverse(c.builder.scene.bodies[static_cast<std::size_t>(b)].pose) * pointB;
     made.length = norm(pointB - pointA);
@@ -118,7 +128,7 @@ PairCoefficients largerOf(const Surface& a, const Surface& b) {
 }
 
 /// Pairs of bodies that never touch in MuJoCo: those welded together, a body and the one above it, excluded ones.
-std::set<std::pair<int, int>> apartBodies(const mjModel& m, bool filtersParents) {
+std::set<std::pair<int, int>> apartBodies(const CompiledModel& m, bool filtersParents) {
     std::map<int, std::vector<int>> groups;
     for (int body = 0; body < m.nbody; ++body) groups[m.body_weldid[body]].push_back(body);
     std::set<std::pair<int, int>> apart;
@@ -147,9 +157,9 @@ void addConstraints(Conversion& c) {
 void addContactRules(Conversion& c) {
     c.builder.setMixing(largerOf, "MuJoCo's rule, the larger value of each");
     std::set<std::pair<int, int>> pairs;
-    for (int p = 0; p < c.m.npair && c.m.opt.collision != mjCOL_DYNAMIC; ++p) {
+    for (int p = 0; p < c.m.npair && !c.m.onlyDynamic; ++p) {
         const auto ends = std::minmax(c.m.pair_geom1[p], c.m.pair_geom2[p]);
-        const mjtNum* f = c.m.pair_friction + 5 * static_cast<std::ptrdiff_t>(p);
+        const double* f = c.m.pair_friction.from(5 * p);
         if (c.m.pair_dim[p] > 1 && f[0] != f[1])
             c.report.leavesOut("anisotropic_friction", "<pair> friction",
                                {c.options.file.filename().string(), 0},
@@ -157,8 +167,8 @@ void addContactRules(Conversion& c) {
         pairs.insert(ends);
         c.builder.setPair(ends.first + 1, ends.second + 1, lawOf({f[0], f[2], f[3]}, c.m.pair_dim[p]));
     }
-    if (c.isOff(mjDSBL_CONTACT)) return;
-    auto apart = apartBodies(c.m, !c.isOff(mjDSBL_FILTERPARENT));
+    if (c.isOff("contact")) return;
+    auto apart = apartBodies(c.m, !c.isOff("filterparent"));
     // Bodies that a joint connects do not touch in a scenario: they need no layers.
     std::set<std::pair<int, int>> joined;
     for (const Joint& j : c.builder.scene.joints)
@@ -168,10 +178,10 @@ void addContactRules(Conversion& c) {
                                         c.bodyOf[static_cast<std::size_t>(pair.second)]);
         return bodies.first == kNone || joined.contains(bodies);
     });
-    const mjModel* m = &c.m;
+    const CompiledModel* m = &c.m;
     c.builder.setContacts([m, pairs, apart](int a, int b) {
         if (pairs.contains(std::minmax(a, b))) return true;
-        if (m->opt.collision == mjCOL_PAIR) return false;
+        if (m->onlyPairs) return false;
         if (apart.contains(std::minmax(m->geom_bodyid[a], m->geom_bodyid[b]))) return false;
         return (m->geom_contype[a] & m->geom_conaffinity[b]) != 0 ||
                (m->geom_contype[b] & m->geom_conaffinity[a]) != 0;

@@ -45,9 +45,10 @@ class Joints {
         if (to == kNone ||
             c_.builder.scene.bodies[static_cast<std::size_t>(to)].type != scenario::BodyType::Dynamic)
             return;
-        parent_ = frameOf(c_.m.body_parentid[body]);
+        parent_ = c_.endOf(c_.m.body_parentid[body]);
         child_ = to;
         if (parent_ == child_) return;  // a body without mass, part of its parent
+        for (int joint = first; joint < first + count; ++joint) checkLinear(joint);
         if (count == 0) return addFixed(body);
         if (count == 1 && type(first) == mjJNT_FREE) return checkFree(first);
         if (count == 1) return addSingle(first);
@@ -57,45 +58,47 @@ class Joints {
   private:
     int type(int joint) const { return c_.m.jnt_type[joint]; }
     Place place(int joint) const { return c_.placeOf(c_.places.joints, joint); }
-    Vec3 axis(int joint) const { return c_.point(c_.d.xaxis, joint); }
-    Vec3 anchor(int joint) const { return c_.point(c_.d.xanchor, joint); }
+    Vec3 axis(int joint) const { return c_.point(c_.m.xaxis, joint); }
+    Vec3 anchor(int joint) const { return c_.point(c_.m.xanchor, joint); }
     std::string name(int joint) const {
-        return c_.nameOf(mjOBJ_JOINT, joint, "joint_" + std::to_string(joint));
-    }
-
-    /// The body that a joint is attached to above: the world for all that does not move.
-    int frameOf(int body) const {
-        const int index = c_.bodyOf[static_cast<std::size_t>(body)];
-        if (index == kNone) return kNone;
-        return c_.builder.scene.bodies[static_cast<std::size_t>(index)].type == scenario::BodyType::Static
-                   ? kNone
-                   : index;
+        return c_.nameOf(c_.m.joint_names, joint, "joint_" + std::to_string(joint));
     }
 
     Joint& make(int joint, JointType kind, const Vec3& at, const Vec3& along,
                 const Vec3& normal = {1.0, 0.0, 0.0}) {
         Joint& made =
             c_.builder.addJoint(name(joint), kind, parent_, child_, at, along, place(joint), normal);
-        made.collideConnected = c_.isOff(mjDSBL_FILTERPARENT);
+        made.collideConnected = c_.isOff("filterparent");
         return made;
     }
 
     void addFixed(int body) {
-        const Vec3 at = c_.point(c_.d.xpos, body);
+        const Vec3 at = c_.point(c_.m.xpos, body);
         Joint& made = c_.builder.addJoint(
-            c_.nameOf(mjOBJ_BODY, body, "body_" + std::to_string(body)) + "_fixed", JointType::Fixed, parent_,
-            child_, at, {0.0, 0.0, 1.0}, c_.placeOf(c_.places.bodies, body));
-        made.collideConnected = c_.isOff(mjDSBL_FILTERPARENT);
+            c_.nameOf(c_.m.body_names, body, "body_" + std::to_string(body)) + "_fixed", JointType::Fixed,
+            parent_, child_, at, {0.0, 0.0, 1.0}, c_.placeOf(c_.places.bodies, body));
+        made.collideConnected = c_.isOff("filterparent");
     }
 
     bool hasSpring(int joint) const {
-        return !c_.isOff(mjDSBL_PASSIVE) &&
+        return !c_.isOff("passive") &&
                (c_.m.jnt_stiffness[joint] != 0.0 || c_.m.dof_damping[c_.m.jnt_dofadr[joint]] != 0.0);
     }
     double frictionLoss(int joint) const {
-        return c_.isOff(mjDSBL_FRICTIONLOSS) ? 0.0 : c_.m.dof_frictionloss[c_.m.jnt_dofadr[joint]];
+        return c_.isOff("frictionloss") ? 0.0 : c_.m.dof_frictionloss[c_.m.jnt_dofadr[joint]];
     }
-    bool isLimited(int joint) const { return c_.m.jnt_limited[joint] != 0 && !c_.isOff(mjDSBL_LIMIT); }
+    bool isLimited(int joint) const { return c_.m.jnt_limited[joint] != 0 && !c_.isOff("limit"); }
+
+    /// MuJoCo 3 has springs and dampers whose force is a polynomial.
+    void checkLinear(int joint) {
+        const int dof = c_.m.jnt_dofadr[joint];
+        const auto isBent = [](const Array<double>& higher, int index) {
+            return !higher.empty() && (higher[2 * index] != 0.0 || higher[2 * index + 1] != 0.0);
+        };
+        if (isBent(c_.m.jnt_stiffnesspoly, joint) || isBent(c_.m.dof_dampingpoly, dof))
+            c_.report.refuse("<joint> stiffness", place(joint),
+                             "a spring or damper whose force is not linear has no counterpart");
+    }
 
     void checkFree(int joint) {
         if (hasSpring(joint) || frictionLoss(joint) > 0.0)
@@ -106,7 +109,7 @@ class Joints {
     /// Limits, spring, damper and dry friction of a hinge or slide; zero is the start.
     void control(int joint, JointAxis& to) {
         const int dof = c_.m.jnt_dofadr[joint], q = c_.m.jnt_qposadr[joint];
-        const double start = c_.d.qpos[q];
+        const double start = c_.m.qpos[q];
         to.mode = AxisMode::Free;
         if (isLimited(joint)) {
             to.mode = AxisMode::Limited;

@@ -1,84 +1,94 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The reader of MJCF files: rewrites what is newer than the library, judges every element, lets the library compile
+// The reader of MJCF files: rewrites what is newer than the library, judges every element, lets a library compile
 // the model, and maps the compiled model.
-#include <unistd.h>
-
+#include <algorithm>
 #include <charconv>
-#include <cstdio>
 
 #include "scenarios/exchange/mjcf/mjcf.hpp"
 
 namespace rigor::models::mjcf {
 namespace {
 
-/// The library's errors end the process: the caller reads the message.
-void onError(const char* message) {
-    std::fprintf(stderr, "libmujoco: %s\n", message);
-    std::fflush(stderr);
-    _exit(4);
-}
-void onWarning(const char* message) {
-    std::fprintf(stderr, "libmujoco: %s\n", message);
-}
-
-void checkWords(XmlFile& file, Report& report) {
-    applyRules(
-        file, rules(), report,
-        [](const std::string& element, const std::string& attribute) {
-            const bool mapped = (element == "body" && attribute == "gravcomp") ||
-                                (element == "freejoint" && attribute == "align");
-            return mapped || libraryKnows(element, attribute);
-        },
-        libraryName());
+/// Judges every element. Returns whether something is newer than libmujoco, and MuJoCo 3 is there to read it.
+bool checkWords(XmlFile& file, Report& report, const NewerLibrary& newer) {
+    bool needsNewer = false;
+    applyRules(file, rules(), report, [&](const std::string& element, const std::string& attribute) {
+        const bool mapped = (element == "body" && attribute == "gravcomp") ||
+                            (element == "freejoint" && attribute == "align");
+        if (mapped || libraryKnows(element, attribute)) return std::string();
+        const std::string older = "newer than " + libraryName() + " reads";
+        if (!NewerLibrary::maps(element, attribute)) return older;
+        needsNewer = true;
+        return newer.isInstalled() ? "" : older + "; MuJoCo 3 of npm does: ./rigor --with guests";
+    });
     for (const char* section : {"actuator", "sensor"})
         if (auto* e = file.root()->FirstChildElement(section); e && e->NoChildren())
             file.root()->DeleteChild(e);
+    return needsNewer;
 }
 
-/// Sets the start: the model's own, or that of a keyframe.
-void setStart(mjModel& m, mjData& d, const ReadOptions& options, Report& report, const Place& place) {
-    mj_resetData(&m, &d);
+/// The number of the keyframe that --keyframe names, -1 without one.
+int keyframeOf(XmlFile& file, const ReadOptions& options, Report& report) {
+    std::vector<std::string> names;
+    for (auto* section = file.root()->FirstChildElement("keyframe"); section;
+         section = section->NextSiblingElement("keyframe"))
+        for (auto* key = section->FirstChildElement("key"); key; key = key->NextSiblingElement("key"))
+            names.emplace_back(key->Attribute("name") ? key->Attribute("name") : "");
+    const Place place{file.shownName(), 0};
+    const int count = static_cast<int>(names.size());
     if (options.keyframe.empty()) {
-        if (m.nkey > 0)
-            report.changed(
-                "<keyframe>", place,
-                "the start is the model's own pose at rest; --keyframe NAME or NUMBER starts from one of the "
-                "file's " +
-                    std::to_string(m.nkey));
-    } else {
-        int key = mj_name2id(&m, mjOBJ_KEY, options.keyframe.c_str());
-        const char* end = options.keyframe.data() + options.keyframe.size();
-        if (key < 0 && std::from_chars(options.keyframe.data(), end, key).ptr != end) key = -1;
-        if (key < 0 || key >= m.nkey)
-            throw Refusal(place, "--keyframe: found '" + options.keyframe +
-                                     "', expected the name or number of one of " + std::to_string(m.nkey));
-        mj_resetDataKeyframe(&m, &d, key);
+        if (count > 0)
+            report.changed("<keyframe>", place,
+                           "the start is the model's own pose at rest; --keyframe NAME or NUMBER starts from "
+                           "one of the file's " +
+                               std::to_string(count));
+        return -1;
     }
-    const int flags = m.opt.disableflags;
-    m.opt.disableflags |= mjDSBL_CONTACT;
-    mj_forward(&m, &d);
-    m.opt.disableflags = flags;
+    const auto named = std::find(names.begin(), names.end(), options.keyframe);
+    if (named != names.end()) return static_cast<int>(named - names.begin());
+    int key = -1;
+    const char* end = options.keyframe.data() + options.keyframe.size();
+    if (std::from_chars(options.keyframe.data(), end, key).ptr != end) key = -1;
+    if (key < 0 || key >= count)
+        throw Refusal(place, "--keyframe: found '" + options.keyframe +
+                                 "', expected the name or number of one of " + std::to_string(count));
+    return key;
+}
+
+/// The model of libmujoco, or of MuJoCo 3 where the file is newer or libmujoco does not compile it and MuJoCo 3 does.
+CompiledModel compiledBy(const NewerLibrary& newer, bool needsNewer, XmlFile& file, int keyframe) {
+    if (needsNewer) return newer.compile(file, keyframe);
+    try {
+        return compile(file, keyframe);
+    } catch (const Refusal& older) {
+        if (!newer.isInstalled()) throw;
+        try {
+            return newer.compile(file, keyframe);
+        } catch (const Refusal&) {
+            throw older;
+        }
+    }
 }
 
 Answer read(const ReadOptions& options) {
-    mju_user_error = onError;
-    mju_user_warning = onWarning;
     Report report(options.without);
     XmlFile file(options.file);
     const AssetFolders assets(options.file, options.assets);
     lower(file, assets, report);
-    checkWords(file, report);
+    const NewerLibrary newer;
+    const bool needsNewer = checkWords(file, report, newer);
     if (report.isRefused()) return {"", report};
     const Places places = collectPlaces(file);
-    const Model model = compile(file, file.shownName());
-    const Data data(mj_makeData(model.get()));
-    setStart(*model, *data, options, report, {file.shownName(), 0});
-    SceneBuilder builder(options, report, "MJCF", libraryName());
-    Conversion c{options, report, builder, *model, *data, places, {}};
-    builder.scene.gravity = c.isOff(mjDSBL_GRAVITY) ? scenario::Vec3{} : c.point(model->opt.gravity, 0);
-    builder.setTimeStep(model->opt.timestep);
+    const int keyframe = keyframeOf(file, options, report);
+    const CompiledModel model = compiledBy(newer, needsNewer, file, keyframe);
+    if (!model.isFinite())
+        throw Refusal({file.shownName(), 0}, "a value is not a number, not finite or beyond 1e15");
+    SceneBuilder builder(options, report, "MJCF", model.library);
+    Conversion c{options, report, builder, model, places, {}};
+    builder.scene.gravity = c.isOff("gravity") ? scenario::Vec3{} : c.point(model.gravity, 0);
+    builder.setTimeStep(model.timestep);
     addBodies(c);
     addGeoms(c);
     addJoints(c);

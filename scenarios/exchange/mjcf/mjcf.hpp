@@ -5,17 +5,16 @@
 // the mapping of its compiled model.
 #pragma once
 
-#include <mujoco/mujoco.h>
-
-#include <memory>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenarios/exchange/common/builder.hpp"
 #include "scenarios/exchange/common/files.hpp"
 #include "scenarios/exchange/common/xml_file.hpp"
+#include "scenarios/exchange/mjcf/compiled_model.hpp"
 
 namespace rigor::models::mjcf {
 
@@ -41,44 +40,58 @@ struct Places {
 /// Removes gravcomp from the document.
 Places collectPlaces(XmlFile& file);
 
-struct Deleter {
-    void operator()(mjModel* m) const { mj_deleteModel(m); }
-    void operator()(mjData* d) const { mj_deleteData(d); }
-};
-using Model = std::unique_ptr<mjModel, Deleter>;
-using Data = std::unique_ptr<mjData, Deleter>;
+/// The message of a library about a document that it does not compile, at the line that it names.
+Refusal refusalOf(const XmlFile& file, const std::string& library, std::string said);
 
-/// Whether the library knows an element, or an attribute of it; from the schema that it prints.
+/// Whether libmujoco knows an element, or an attribute of it; from the schema that it prints.
 bool libraryKnows(const std::string& element, const std::string& attribute);
-std::string libraryName();
-/// Compiles the document. Throws Refusal with the library's message.
-Model compile(XmlFile& file, const std::string& nameInMessages);
+std::string libraryName();  ///< "libmujoco 2.2.2"
+/// Compiles the document and starts it from a keyframe (-1: from its own pose). Throws Refusal with the library's message.
+CompiledModel compile(XmlFile& file, int keyframe);
+
+/// MuJoCo 3, the package @mujoco/mujoco of npm, in a process of its own.
+class NewerLibrary {
+  public:
+    /// The program beside the reader, or an object that is not installed.
+    NewerLibrary();
+    bool isInstalled() const { return !program_.empty(); }
+    /// Whether MuJoCo 3 knows an element or attribute that libmujoco does not, and this reader maps it.
+    static bool maps(const std::string& element, const std::string& attribute);
+    /// As compile(). Throws Refusal also where the process ends otherwise than with a model.
+    CompiledModel compile(XmlFile& file, int keyframe) const;
+
+  private:
+    std::filesystem::path program_;
+};
 
 /// A compiled model and the scenario that is being made from it.
 struct Conversion {
     const ReadOptions& options;
     Report& report;
     SceneBuilder& builder;
-    const mjModel& m;
-    const mjData& d;
+    const CompiledModel& m;
     const Places& places;
     std::vector<int> bodyOf;  ///< scenario's body of a model's body, or kNone
 
-    bool isOff(mjtDisableBit bit) const {
-        return (m.opt.disableflags & (bit | mjDSBL_CONSTRAINT * isConstraint(bit))) != 0;
+    /// A flag of <option>: constraint switches off all that makes constraints.
+    bool isOff(const char* flag) const {
+        return m.off.contains(flag) || (m.off.contains("constraint") && isConstraint(flag));
     }
-    static bool isConstraint(mjtDisableBit bit) {
-        return bit == mjDSBL_EQUALITY || bit == mjDSBL_FRICTIONLOSS || bit == mjDSBL_LIMIT ||
-               bit == mjDSBL_CONTACT;
+    static bool isConstraint(std::string_view flag) {
+        return flag == "equality" || flag == "frictionloss" || flag == "limit" || flag == "contact";
     }
     Place placeOf(const std::vector<Place>& list, int index) const;
-    scenario::Vec3 point(const mjtNum* p, int index) const {
-        return {p[3 * index], p[3 * index + 1], p[3 * index + 2]};
+    static scenario::Vec3 point(const Array<double>& points, int index, int stride = 3) {
+        const double* p = points.from(stride * index);
+        return {p[0], p[1], p[2]};
     }
-    scenario::Quat turn(const mjtNum* q, int index) const {
-        return {q[4 * index], q[4 * index + 1], q[4 * index + 2], q[4 * index + 3]};
+    static scenario::Quat turn(const Array<double>& turns, int index) {
+        const double* q = turns.from(4 * index);
+        return {q[0], q[1], q[2], q[3]};
     }
-    std::string nameOf(mjtObj kind, int index, const std::string& otherwise) const;
+    /// A body of the scenario for joints: the world where it does not move.
+    int endOf(int body) const;
+    static std::string nameOf(const Array<std::string>& names, int index, const std::string& otherwise);
 };
 
 void addBodies(Conversion& c);

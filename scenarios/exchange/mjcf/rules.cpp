@@ -11,6 +11,10 @@ using enum Verdict;
 
 constexpr const char* kSoft = "softness of contacts and limits: those of a scenario are rigid";
 constexpr const char* kActuator = "a scenario has no actuators";
+constexpr const char* kDeformable = "deformable bodies have no counterpart";
+constexpr const char* kOtherModel = "a part of another model file is not read";
+constexpr const char* kPlugin = "a plugin may do anything";
+constexpr const char* kAdhesion = "contacts that pull have no counterpart";
 constexpr const char* kDefaultSolref = "0.02 1";
 constexpr const char* kDefaultSolimp = "0.9 0.95 0.001 0.5 2";
 
@@ -24,6 +28,7 @@ constexpr ElementRule kRules[] = {
     {"compiler", "saveinertial", NoPhysics},
     {"compiler", "texturedir", NoPhysics},
     {"compiler", "alignfree", NoPhysics},
+    {"compiler", "conflict", NoPhysics},
     {"compiler", "autolimits", Read},
     {"lengthrange", "", NoPhysics, "", "the range of tendons is only for muscles"},
     {"option", "", Read},
@@ -81,14 +86,22 @@ constexpr ElementRule kRules[] = {
     {"asset/texture", "", NoPhysics},
     {"asset/material", "", NoPhysics},
     {"asset/skin", "", NoPhysics},
-    {"deformable/skin", "", NoPhysics},
+    {"asset/model", "", Feature, "attach", kOtherModel},
+    {"attach", "", Feature, "attach", kOtherModel},
+    {"extension", "", Feature, "plugins", kPlugin},
+    {"plugin", "", Feature, "plugins", kPlugin},
+    {"composite", "", Feature, "deformables", kDeformable},
+    {"flexcomp", "", Feature, "deformables", kDeformable},
+    {"deformable", "", Feature, "deformables", kDeformable},
     {"hfield", "", Read},
     {"hfield", "*", Read},
+    {"hfield", "content_type", NoPhysics},
     {"mesh", "", Read},
     {"mesh", "*", Read},
     {"mesh", "smoothnormal", NoPhysics},
     {"mesh", "texcoord", NoPhysics},
     {"mesh", "content_type", NoPhysics},
+    {"mesh", "material", NoPhysics},
     {"mesh", "maxhullvert", Read},
     {"worldbody", "", Read},
     {"worldbody", "*", Read},
@@ -96,6 +109,7 @@ constexpr ElementRule kRules[] = {
     {"body", "*", Read},
     {"body", "user", NoPhysics},
     {"body", "sleep", Numerics},
+    {"body", "simple", Numerics},
     {"inertial", "", Read},
     {"inertial", "*", Read},
     {"joint", "", Read},
@@ -128,6 +142,8 @@ constexpr ElementRule kRules[] = {
     {"geom", "solimp", Feature, "softness", kSoft, kDefaultSolimp},
     {"geom", "margin", Feature, "margin", "contacts at a distance have no counterpart", "0"},
     {"geom", "gap", Feature, "margin", "contacts at a distance have no counterpart", "0"},
+    {"geom", "surfacevel", Feature, "surface_velocity", "moving surfaces are not read", "0 0 0 0 0 0"},
+    {"geom", "adhesion", Feature, "adhesion", kAdhesion, "0"},
     {"site", "", Read},
     {"site", "*", Read},
     {"site", "group", NoPhysics},
@@ -144,6 +160,7 @@ constexpr ElementRule kRules[] = {
     {"pair", "solimp", Feature, "softness", kSoft, kDefaultSolimp},
     {"pair", "margin", Feature, "margin", "contacts at a distance have no counterpart", "0"},
     {"pair", "gap", Feature, "margin", "contacts at a distance have no counterpart", "0"},
+    {"pair", "adhesion", Feature, "adhesion", kAdhesion, "0"},
     {"exclude", "", Read},
     {"exclude", "*", Read},
     {"equality", "", Read},
@@ -173,6 +190,8 @@ constexpr ElementRule kRules[] = {
     {"spatial", "solreflimit", Feature, "softness", kSoft, kDefaultSolref},
     {"spatial", "solimplimit", Feature, "softness", kSoft, kDefaultSolimp},
     {"spatial", "frictionloss", Feature, "tendons", "friction along a tendon has no counterpart", "0"},
+    {"spatial", "actuatorfrcrange", Feature, "actuators", kActuator},
+    {"spatial", "actuatorfrclimited", Feature, "actuators", kActuator, "false"},
     {"default/tendon", "solreflimit", Feature, "softness", kSoft, kDefaultSolref},
     {"default/tendon", "solimplimit", Feature, "softness", kSoft, kDefaultSolimp},
     {"default/tendon", "width", NoPhysics},

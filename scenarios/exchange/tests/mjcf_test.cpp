@@ -4,13 +4,12 @@
 // MJCF is read as libmujoco understands it: masses, inertia, poses and joints of every body are compared with the
 // library's own model of the unchanged file.
 #include <gmock/gmock.h>
-#include <mujoco/mujoco.h>
 
 #include <cmath>
 #include <cstring>
-#include <memory>
 #include <set>
 
+#include "scenarios/exchange/tests/library_says.hpp"
 #include "scenarios/exchange/tests/tool.hpp"
 #include "scenarios/model/surfaces.hpp"
 
@@ -20,62 +19,8 @@ namespace {
 using ::testing::HasSubstr;
 using namespace scenario;
 
-struct Deleter {
-    void operator()(mjModel* m) const { mj_deleteModel(m); }
-    void operator()(mjData* d) const { mj_deleteData(d); }
-};
-
-Vec3 vector(const mjtNum* v) {
-    return {v[0], v[1], v[2]};
-}
-Mat3 matrix(const mjtNum* v) {
-    Mat3 r;
-    for (int i = 0; i < 9; ++i) r(i / 3, i % 3) = v[i];
-    return r;
-}
-
-/// Compares an imported scenario with the library's own reading of the file.
 void compareWithLibrary(const std::filesystem::path& file, const Scenario& s) {
-    char message[500] = "";
-    const std::unique_ptr<mjModel, Deleter> m(mj_loadXML(file.c_str(), nullptr, message, sizeof message));
-    ASSERT_TRUE(m) << message;
-    const std::unique_ptr<mjData, Deleter> d(mj_makeData(m.get()));
-    mj_forward(m.get(), d.get());
-    int compared = 0;
-    for (int i = 1; i < m->nbody; ++i) {
-        const char* name = mj_id2name(m.get(), mjOBJ_BODY, i);
-        const int index = findBody(s, name && *name ? name : "body_" + std::to_string(i));
-        if (index == kNone) continue;
-        const Body& b = s.bodies[static_cast<std::size_t>(index)];
-        expectNear(b.pose.position, vector(d->xpos + 3 * i), kTolerance, b.name + ", position");
-        const Mat3 turn = toMatrix(b.pose.orientation);
-        expectNear(turn, matrix(d->xmat + 9 * i), kTolerance, b.name + ", axes");
-        if (b.type != BodyType::Dynamic) continue;
-        ++compared;
-        EXPECT_NEAR(b.massProperties.mass, m->body_mass[i], kTolerance * m->body_mass[i]);
-        expectNear(b.pose * b.massProperties.centerOfMass, vector(d->xipos + 3 * i), kTolerance,
-                   b.name + ", centre");
-        const Mat3 axes = matrix(d->ximat + 9 * i);
-        const Vec3 moments = vector(m->body_inertia + 3 * i);
-        expectNear(turn * b.massProperties.inertia * transpose(turn),
-                   axes * Mat3::diagonal(moments.x, moments.y, moments.z) * transpose(axes), kTolerance,
-                   b.name + ", inertia");
-    }
-    EXPECT_GT(compared, 0);
-    for (int i = 0; i < m->njnt; ++i) {
-        const char* name = mj_id2name(m.get(), mjOBJ_JOINT, i);
-        const std::string expected = name && *name ? name : "joint_" + std::to_string(i);
-        for (const Joint& j : s.joints) {
-            if (j.name != expected || (j.type != JointType::Hinge && j.type != JointType::Slider)) continue;
-            const Pose pose = s.bodies[static_cast<std::size_t>(j.bodyB)].pose;
-            expectNear(pose * j.anchorB, vector(d->xanchor + 3 * i), kTolerance, j.name + ", anchor");
-            expectNear(rotate(pose.orientation, j.axisB), vector(d->xaxis + 3 * i), kTolerance,
-                       j.name + ", axis");
-            if (m->jnt_limited[i] == 0) continue;
-            EXPECT_NEAR(j.axes[0].lower, m->jnt_range[2 * i] - d->qpos[m->jnt_qposadr[i]], kTolerance);
-            EXPECT_NEAR(j.axes[0].upper, m->jnt_range[2 * i + 1] - d->qpos[m->jnt_qposadr[i]], kTolerance);
-        }
-    }
+    expectAsLibrarySays(s, libmujocoSays(file));
 }
 
 TEST(Mjcf, ModelsAreWhatTheLibrarySays) {

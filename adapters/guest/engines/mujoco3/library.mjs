@@ -25,9 +25,10 @@ export function element(name, attributes, children = []) {
     return children.length === 0 ? `<${name}${written}/>` : `<${name}${written}>${children.join('')}</${name}>`;
 }
 
-export function modelOf(xml) {
+/** The model of a text; `files`: those that it names, an MjVFS. */
+export function modelOf(xml, files) {
     try {
-        return M.MjModel.from_xml_string(xml);
+        return files ? M.MjModel.from_xml_string(xml, files) : M.MjModel.from_xml_string(xml);
     } catch (error) {
         throw new rg.BadInput(String(error.message ?? error).trim());
     }
