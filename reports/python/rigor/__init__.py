@@ -39,6 +39,8 @@ from .program import Progress, find_program
 from .run import Run, open
 from .trajectory import CONTACT, Motion, Trajectory, read_trajectory
 
+__version__ = "0.2.0"
+
 #: What comes from the engine, loaded when first used.
 _ENGINE = ("EngineError", "JointAxis", "Shape", "World", "WorldBatch")
 

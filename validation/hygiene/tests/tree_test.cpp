@@ -106,13 +106,22 @@ TEST(Tree, NoUnfinishedWordsAndNoMachinePaths) {
     }
 }
 
-/// The version of CMakeLists.txt is the one that people cite, and the changelog knows it.
+/// The version of CMakeLists.txt is that of the packages (cmake/RigorPackages.cmake), of the Python package and of what people
+/// cite, and the newest version of the changelog, with one date.
 TEST(Tree, OneVersion) {
-    std::smatch version;
-    const std::string cmake = readFile("CMakeLists.txt");
+    std::smatch version, newest;
+    const std::string cmake = readFile("CMakeLists.txt"), changes = readFile("CHANGELOG.md");
     ASSERT_TRUE(std::regex_search(cmake, version, std::regex(R"(project\(rigor VERSION ([0-9.]+))")));
-    EXPECT_NE(readFile("CITATION.cff").find("\nversion: " + version[1].str() + "\n"), std::string::npos);
-    EXPECT_NE(readFile("CHANGELOG.md").find("\n## " + version[1].str() + " ("), std::string::npos);
+    ASSERT_TRUE(
+        std::regex_search(changes, newest, std::regex(R"(\n## ([0-9.]+) \((\d{4}-\d{2}-\d{2})\)\n)")));
+    EXPECT_EQ(newest[1].str(), version[1].str());
+    const std::string citation = readFile("CITATION.cff"),
+                      python = readFile("reports/python/rigor/__init__.py");
+    EXPECT_NE(citation.find("\nversion: " + version[1].str() + "\n"), std::string::npos);
+    EXPECT_NE(citation.find("\ndate-released: " + newest[2].str() + "\n"), std::string::npos);
+    EXPECT_NE(python.find("\n__version__ = \"" + version[1].str() + "\"\n"), std::string::npos);
+    EXPECT_NE(readFile("cmake/RigorPackages.cmake").find("CPACK_PACKAGE_VERSION ${PROJECT_VERSION}"),
+              std::string::npos);
 }
 
 /// Standard-library random engines are portable, its distributions are not: scenario generators must not use
