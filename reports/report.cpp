@@ -7,6 +7,7 @@
 #include <set>
 
 #include "reports/encoding/data_files.hpp"
+#include "reports/encoding/gzip_text.hpp"
 #include "reports/encoding/text.hpp"
 #include "reports/model/derived_runs.hpp"
 #include "reports/model/trajectory_loader.hpp"
@@ -27,6 +28,8 @@
 namespace rigor::report {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr int kTableCompression = 6;
 
 /// Result of `rigor study` beside the run, if it was one.
 std::optional<nlohmann::ordered_json> readStudy(const fs::path& file) {
@@ -77,9 +80,50 @@ void clearDataFolder(const fs::path& folder) {
         if (entry.path().extension() == ".js") fs::remove(entry.path());
 }
 
+/// Writes into the folder of the run, and notes what was written.
+class ReportFolder {
+  public:
+    ReportFolder(fs::path folder, const ReportLimits& limits) : folder_(std::move(folder)), limits_(limits) {}
+
+    void write(const fs::path& name, const std::string& content) {
+        writeFile(folder_ / name, content);
+        written.push_back(folder_ / name);
+    }
+    /// A file that an earlier report, of more or of fewer cases, wrote in place of others.
+    void remove(const fs::path& name) const {
+        std::error_code ignored;
+        fs::remove(folder_ / name, ignored);
+    }
+    void writeCsv(const results::Run& run) {
+        const bool isLarge = run.cases.size() > limits_.cases;
+        remove(isLarge ? "results.csv" : "results.csv.gz");
+        if (!isLarge) return write("results.csv", csvReport(run));
+        GzipText compressed;
+        csvReport(run, [&](std::string_view lines) { compressed.add(lines); });
+        write("results.csv.gz", compressed.finish());
+    }
+    void writeTable(const Table& table) {
+        const std::string name = (fs::path("tables") / table.name).string();
+        const bool isLarge = table.rows.size() > limits_.tableRows;
+        for (const char* ending : {".csv", ".md", ".tex", ".csv.gz"})
+            if (isLarge != (ending == std::string(".csv.gz"))) remove(name + ending);
+        if (isLarge) return write(name + ".csv.gz", gzip(tableCsv(table), kTableCompression));
+        write(name + ".csv", tableCsv(table));
+        write(name + ".md", tableMarkdown(table));
+        write(name + ".tex", tableLatex(table));
+    }
+
+    std::vector<fs::path> written;
+
+  private:
+    fs::path folder_;
+    ReportLimits limits_;
+};
+
 }  // namespace
 
-std::vector<fs::path> writeReports(const fs::path& runDirectory, std::vector<std::string>* problems) {
+std::vector<fs::path> writeReports(const fs::path& runDirectory, std::vector<std::string>* problems,
+                                   const ReportLimits& limits) {
     const results::Run run = results::readRun(runDirectory);
     std::set<std::string> found = problemsOf(run, runDirectory);
     const results::Run shown = withoutDerivedRuns(run);
@@ -88,19 +132,21 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory, std::vector<std
     const TrajectoryLoader load = [&](const results::CaseRow& row) {
         return loadTrajectory(runDirectory, row, false, found);
     };
-    std::vector<fs::path> written;
-    const auto write = [&](const fs::path& name, const std::string& content) {
-        writeFile(runDirectory / name, content);
-        written.push_back(runDirectory / name);
-    };
+    ReportFolder folder(runDirectory, limits);
+    const auto write = [&](const fs::path& name, const std::string& content) { folder.write(name, content); };
     const auto writeData = [&](const std::string& name, const std::string& content) {
         write(fs::path("data") / (name + ".js"), dataFile(name, content));
     };
-    write("index.html", htmlReport(view, study ? studyPageJson(*study) : ""));
+    const bool isLarge = shown.cases.size() > limits.casesInPage;
+    write("index.html", htmlReport(view, study ? studyPageJson(*study) : "",
+                                   isLarge ? CasesOfPage::Beside : CasesOfPage::Inside));
     clearDataFolder(runDirectory / "data");
+    if (isLarge)
+        for (std::size_t i = 0; i < caseFiles(view).size(); ++i)
+            writeData("cases-" + std::to_string(i), casesJson(view, i));
     for (std::size_t i = 0; i < shown.scenarios.size(); ++i)
         writeData("scenario-" + std::to_string(i), scenarioJson(view, i, load));
-    write("results.csv", csvReport(run));
+    folder.writeCsv(run);
     write("summary.md", markdownSummary(view) + problemsMarkdown(found));
     write("junit.xml", junitReport(run));
     if (!run.orders.empty()) write("orders.csv", ordersCsv(run));
@@ -115,17 +161,14 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory, std::vector<std
         write(fs::path("plots") / (plot.name + ".csv"), plot.csv);
     }
     fs::create_directories(runDirectory / "tables" / "scenarios");
-    for (const auto& table : allTables(view)) {
-        write(fs::path("tables") / (table.name + ".csv"), tableCsv(table));
-        write(fs::path("tables") / (table.name + ".md"), tableMarkdown(table));
-        write(fs::path("tables") / (table.name + ".tex"), tableLatex(table));
-    }
+    for (const auto& entry : tableEntries())
+        for (const auto& table : entry.make(view)) folder.writeTable(table);
     const FullTrajectoryLoader loadAll = [&](const results::CaseRow& row) {
         return loadTrajectory(runDirectory, row, true, found);
     };
     replayFiles(view, loadAll, writeData);
     if (problems != nullptr) problems->assign(found.begin(), found.end());
-    return written;
+    return folder.written;
 }
 
 }  // namespace rigor::report

@@ -2,30 +2,19 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "reports/encoding/data_files.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <stdexcept>
 
+#include "reports/encoding/gzip_text.hpp"
+
 namespace rigor::report {
 
 std::string gzip(std::string_view bytes, int level) {
-    constexpr int kGzipWindow = 15 + 16;
-    z_stream stream{};
-    if (deflateInit2(&stream, level, Z_DEFLATED, kGzipWindow, 9, Z_DEFAULT_STRATEGY) != Z_OK)
-        throw std::runtime_error("report: zlib cannot start");
-    std::string out(deflateBound(&stream, bytes.size()), '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream.avail_in = bytes.size();
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = out.size();
-    const int result = deflate(&stream, Z_FINISH);
-    out.resize(stream.total_out);
-    deflateEnd(&stream);
-    if (result != Z_STREAM_END) throw std::runtime_error("report: zlib cannot compress a data file");
-    return out;
+    GzipText text(level);
+    text.add(bytes);
+    return text.finish();
 }
 
 std::string base64(std::string_view bytes) {

@@ -62,10 +62,10 @@ std::string pageOf(const std::string& title, const std::string& bundle, const st
 
 }  // namespace
 
-std::string htmlReport(const ViewModel& view, const std::string& study) {
+std::string htmlReport(const ViewModel& view, const std::string& study, CasesOfPage cases) {
     const auto& suite = view.run().suite;
     return pageOf("Rigor report" + (suite.empty() ? "" : ": " + suite), "report",
-                  dataElement("run-data", overviewJson(view)) +
+                  dataElement("run-data", overviewJson(view, cases)) +
                       (study.empty() ? "" : dataElement("study-data", study)));
 }
 

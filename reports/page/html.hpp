@@ -7,11 +7,13 @@
 #include <string>
 
 #include "reports/model/view_model.hpp"
+#include "reports/page/page_data.hpp"
 
 namespace rigor::report {
 
 /// The page with the overview's data in it. `study`: studyPageJson() of a study's run, else empty.
-std::string htmlReport(const ViewModel& view, const std::string& study = "");
+std::string htmlReport(const ViewModel& view, const std::string& study = "",
+                       CasesOfPage cases = CasesOfPage::Inside);
 
 /// The page of several runs after each other, with its data in it.
 std::string htmlHistory(const std::string& json);

@@ -31,6 +31,8 @@ using results::CaseRow;
 constexpr std::size_t kMostBodies = 6;      // curves of more bodies would drown the page
 constexpr std::size_t kMostSubjects = 6;    // most subjects per series
 constexpr std::size_t kMostReadBack = 200;  // rows per case that differ
+constexpr std::size_t kMostRedCases = 6;    // named on the first page
+constexpr std::size_t kCasesOfFile = 500;   // about 2 MB of JSON, 0.2 MB compressed
 
 std::string text(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -209,15 +211,46 @@ Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) 
     return brief;
 }
 
-Json scenariosJson(const ViewModel& view) {
+Json briefCases(const ViewModel& view, std::size_t scenario) {
+    Json cases = Json::array();
+    for (std::size_t c = 0; c < view.columns().size(); ++c)
+        for (const auto* row : view.cell(scenario, c).cases) cases.push_back(briefCase(view, scenario, *row));
+    return cases;
+}
+
+std::size_t countCases(const ViewModel& view, std::size_t scenario) {
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < view.columns().size(); ++c) count += view.cell(scenario, c).cases.size();
+    return count;
+}
+
+/// What the page needs of the cases before it has loaded them: the first red ones, and whether any case has what a
+/// section is about.
+void addCaseFacts(const ViewModel& view, Json& overview) {
+    Json red = Json::array();
+    bool timed = false, touching = false;
+    for (std::size_t s = 0; s < view.run().scenarios.size(); ++s)
+        for (std::size_t c = 0; c < view.columns().size(); ++c)
+            for (const auto* row : view.cell(s, c).cases) {
+                timed = timed || stepTiming(*row) != nullptr;
+                for (const auto& a : row->audit)
+                    touching = touching || (a.auditor == "in_run" && a.queries > 0 && a.overlapping > 0);
+                if (results::isRed(*row) && red.size() < kMostRedCases)
+                    red.push_back(
+                        {{"scenario", row->scenario}, {"spec", row->spec}, {"dt", number(row->dt)}});
+            }
+    overview["redCases"] = std::move(red);
+    overview["timed"] = timed;
+    overview["touching"] = touching;
+}
+
+Json scenariosJson(const ViewModel& view, CasesOfPage where) {
     Json list = Json::array();
     const auto& run = view.run();
     for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
         const auto& s = run.scenarios[i];
         const auto& metric = view.mainMetric(i);
-        Json cases = Json::array();
-        for (std::size_t c = 0; c < view.columns().size(); ++c)
-            for (const auto* row : view.cell(i, c).cases) cases.push_back(briefCase(view, i, *row));
+        Json cases = where == CasesOfPage::Inside ? briefCases(view, i) : Json::array();
         Json steps = Json::array();
         for (const double dt : s.timeSteps) steps.push_back(number(dt));
         list.push_back({{"name", s.name},
@@ -425,7 +458,28 @@ Json described(const results::EngineRow& engine) {
 
 }  // namespace
 
-std::string overviewJson(const ViewModel& view) {
+std::vector<std::size_t> caseFiles(const ViewModel& view) {
+    std::vector<std::size_t> first;
+    std::size_t held = kCasesOfFile;
+    for (std::size_t s = 0; s < view.run().scenarios.size(); ++s) {
+        if (held >= kCasesOfFile) {
+            first.push_back(s);
+            held = 0;
+        }
+        held += countCases(view, s);
+    }
+    return first;
+}
+
+std::string casesJson(const ViewModel& view, std::size_t file) {
+    const auto first = caseFiles(view);
+    const std::size_t end = file + 1 < first.size() ? first[file + 1] : view.run().scenarios.size();
+    Json scenarios = Json::array();
+    for (std::size_t s = first.at(file); s < end; ++s) scenarios.push_back(briefCases(view, s));
+    return text(scenarios);
+}
+
+std::string overviewJson(const ViewModel& view, CasesOfPage cases) {
     const auto& run = view.run();
     Json columns = Json::array(), engines = Json::array(), symbols = Json::object();
     for (const auto& c : view.columns())
@@ -452,31 +506,34 @@ std::string overviewJson(const ViewModel& view) {
                                          {"detail", detailOf(view.totals(), shown)},
                                          {"count", found == view.totals().cases.end() ? 0 : found->second}};
     }
-    return text({{"suite", run.suite},
-                 {"title", run.suite.empty() ? "" : runTitle(run)},
-                 {"command", run.command},
-                 {"started", run.started},
-                 {"finished", run.finished},
-                 {"planned", run.plannedCases},
-                 {"total", view.totals().total},
-                 {"environment", run.environment},
-                 {"bench", benchJson(run)},
-                 {"symbols", symbols},
-                 {"columns", columns},
-                 {"engines", engines},
-                 {"scenarios", scenariosJson(view)},
-                 {"grades", gradesJson(view)},
-                 {"regressions", regressionsJson(view)},
-                 {"red", view.totals().red},
-                 {"inHouse", results::kInHouseEngine},
-                 {"likeForLike", results::kMatchedPreset},
-                 {"mechanisms", mechanismsJson(view.mechanisms())},
-                 {"tasks", mechanismsJson(view.tasks())},
-                 {"overall", mechanismJson(view.overall())},
-                 {"costs", costsJson(view)},
-                 {"insertionOrders", insertionOrdersJson(view)},
-                 {"audit", gatheredAudit(run)},
-                 {"ledger", gatheredLedger(view)}});
+    Json overview{{"suite", run.suite},
+                  {"title", run.suite.empty() ? "" : runTitle(run)},
+                  {"command", run.command},
+                  {"started", run.started},
+                  {"finished", run.finished},
+                  {"planned", run.plannedCases},
+                  {"total", view.totals().total},
+                  {"environment", run.environment},
+                  {"bench", benchJson(run)},
+                  {"symbols", symbols},
+                  {"columns", columns},
+                  {"engines", engines},
+                  {"scenarios", scenariosJson(view, cases)},
+                  {"caseFiles", cases == CasesOfPage::Beside ? Json(caseFiles(view)) : Json(nullptr)},
+                  {"grades", gradesJson(view)},
+                  {"regressions", regressionsJson(view)},
+                  {"red", view.totals().red},
+                  {"inHouse", results::kInHouseEngine},
+                  {"likeForLike", results::kMatchedPreset},
+                  {"mechanisms", mechanismsJson(view.mechanisms())},
+                  {"tasks", mechanismsJson(view.tasks())},
+                  {"overall", mechanismJson(view.overall())},
+                  {"costs", costsJson(view)},
+                  {"insertionOrders", insertionOrdersJson(view)},
+                  {"audit", gatheredAudit(run)},
+                  {"ledger", gatheredLedger(view)}};
+    addCaseFacts(view, overview);
+    return text(overview);
 }
 
 std::string scenarioJson(const ViewModel& view, std::size_t index, const TrajectoryLoader& load) {

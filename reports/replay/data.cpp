@@ -196,8 +196,11 @@ std::vector<CaseFrames> loadCases(const ViewModel& view, std::size_t scenario, d
 
 }  // namespace
 
+ReplayBudget::ReplayBudget(std::size_t cases)
+    : perCase_(std::min(kReplayBytesPerCase, kReplayBytesOfRun / std::max<std::size_t>(cases, 1))) {}
+
 double ReplayBudget::allowance() const {
-    return std::clamp(kReplayBytesPerCase + saved_ / 4.0, kReplayBytesPerCase / 4.0, kReplayBytesAtMost);
+    return std::clamp(perCase_ + saved_ / 4.0, perCase_ / 4.0, kReplayBytesAtMost);
 }
 
 std::string replayBundle(const ViewModel& view, std::size_t scenario, std::size_t step,
@@ -254,8 +257,10 @@ std::string replayName(std::size_t scenario, std::size_t step) {
 
 void replayFiles(const ViewModel& view, const FullTrajectoryLoader& load,
                  const std::function<void(const std::string& name, const std::string& bundle)>& write) {
-    ReplayBudget budget;
     const auto& scenarios = view.run().scenarios;
+    const auto& cases = view.run().cases;
+    ReplayBudget budget(std::count_if(cases.begin(), cases.end(),
+                                      [](const CaseRow& row) { return !row.trajectoryFile.empty(); }));
     for (std::size_t i = 0; i < scenarios.size(); ++i)
         for (std::size_t j = 0; j < replaySteps(view, i).size(); ++j)
             if (const std::string bundle = replayBundle(view, i, j, load, budget); !bundle.empty())

@@ -18,6 +18,8 @@ namespace rigor::report {
 
 /// Bytes that a case may take once it is compressed, on average over a run.
 inline constexpr double kReplayBytesPerCase = 24e3;
+/// Bytes of all cases of a run: those of a large run get less each.
+inline constexpr double kReplayBytesOfRun = 240e6;
 /// Most bytes of one case, if others left theirs.
 inline constexpr double kReplayBytesAtMost = 240e3;
 /// More frames than this are not stored, however small.
@@ -30,14 +32,16 @@ using FullTrajectoryLoader =
 /// Rest of the run's budget: a case that needs less than its fraction leaves the rest to those after it.
 class ReplayBudget {
   public:
+    /// `cases`: number of cases of the run that have a trajectory.
+    explicit ReplayBudget(std::size_t cases = 0);
     /// Allowance of the next case [bytes].
     double allowance() const;
-    void spend(double bytes) { saved_ += kReplayBytesPerCase - bytes; }
+    void spend(double bytes) { saved_ += perCase_ - bytes; }
     /// Spends bytes that belong to no case: a reference.
     void spendBeside(double bytes) { saved_ -= bytes; }
 
   private:
-    double saved_ = 0.0;
+    double perCase_, saved_ = 0.0;
 };
 
 /// Time steps that cases of a scenario were run at [s], coarsest first: the order of its replay files.

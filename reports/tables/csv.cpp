@@ -44,9 +44,10 @@ void appendLine(std::string& out, const std::vector<std::string>& fields) {
 
 }  // namespace
 
-std::string csvReport(const results::Run& run) {
-    std::string out = kHeader;
+void csvReport(const results::Run& run, const std::function<void(std::string_view)>& write) {
+    write(kHeader);
     for (const auto& row : run.cases) {
+        std::string out;
         const std::vector<std::string> head{row.scenario,
                                             row.engine,
                                             row.spec,
@@ -108,7 +109,13 @@ std::string csvReport(const results::Run& run) {
         const bool hasNumbers = !row.metrics.empty() || !row.quantities.empty();
         if (!hasNumbers || row.outcome != results::Outcome::Completed)  // every case is in the file
             line({"", "", "", "", "", "", "", "", row.reason, "", "", ""}, "");
+        write(out);
     }
+}
+
+std::string csvReport(const results::Run& run) {
+    std::string out;
+    csvReport(run, [&](std::string_view lines) { out += lines; });
     return out;
 }
 

@@ -31,6 +31,11 @@ export async function loadJson<T>(name: string): Promise<T> {
   return JSON.parse(new TextDecoder().decode(await loadData(name))) as T;
 }
 
+/** The same of a file that the caller keeps the content of. */
+export async function loadJsonOnce<T>(name: string): Promise<T> {
+  return JSON.parse(new TextDecoder().decode(await inflate(await fetchScript(name)))) as T;
+}
+
 /** The content of a data file as it is written: base64 of gzip. */
 export const loadText = (name: string): Promise<string> => fetchScript(name);
 

@@ -292,6 +292,10 @@ export interface Run {
   columns: Column[];
   engines: Engine[];
   scenarios: Scenario[];
+  caseFiles?: number[] | null; // a large run: the first scenario of each data/cases-<n>.js, which have the cases
+  redCases: { scenario: string; spec: string; dt: number }[]; // the first ones
+  timed: boolean; // some case has times
+  touching: boolean; // some case had contacts that were audited
   grades: { name: string; meaning: string; count: number }[]; // A to E, then ""
   regressions: Record<Regression, number>;
   red: number;
@@ -475,6 +479,9 @@ export interface Fairness {
   cost: Stored;
   limit: Maybe;
 }
+
+/** Content of data/cases-<n>.js: the cases of each of its scenarios. */
+export type CaseFile = BriefCase[][];
 
 /** Content of data/scenario-<n>.js. */
 export interface ScenarioData {

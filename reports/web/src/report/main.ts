@@ -13,12 +13,14 @@ import './print.css';
 import { el } from '../common/elements.ts';
 import { drawAllPlots, dropPlots } from './charts/live_plots.ts';
 import { enginePage } from './engine/page.ts';
+import { loadCases } from './loading.ts';
 import { filtersOf } from './overview/filters.ts';
 import { tabOf, tabs } from './overview/page.ts';
 import { run, scenarioLink } from './run.ts';
 import { scenarioPage } from './scenario/page.ts';
 import { searchField } from './search.ts';
 import { themeButton } from './theme.ts';
+import { panel } from './widgets.ts';
 
 const page = document.getElementById('page') as HTMLElement;
 const home = run.single ? scenarioLink(run.single) : '';
@@ -29,7 +31,7 @@ let visit = 0; // a page that loads slowly is dropped when another one was opene
 interface Page {
   title: string;
   nodes: HTMLElement[];
-  more?: (() => HTMLElement | null)[]; // made when the first ones are on the screen
+  more?: (() => Promise<HTMLElement | null>)[]; // made when the first ones are on the screen
   shown?: () => void;
   left?: () => void;
 }
@@ -42,19 +44,38 @@ function partsOf(hash: string): { path: string; anchor: string; query: URLSearch
   return { path: `#${tabOf(anchor).id}`, anchor, query: new URLSearchParams(query) };
 }
 
+/** What `make` makes once the cases are there, or the reason why they are not. */
+async function withCases(id: string, make: () => HTMLElement | null): Promise<HTMLElement | null> {
+  try {
+    await loadCases();
+  } catch (error) {
+    return panel(id, 'Nothing to show', el('p', null, (error as Error).message));
+  }
+  return make();
+}
+
 async function pageOf(path: string, query: URLSearchParams): Promise<Page> {
   const [, kind, name] = /^#\/(scenario|engine)\/(.*)$/.exec(path) ?? [];
   if (kind === undefined || name === undefined) {
     const tab = tabOf(path.slice(1));
     if (tab.id === 'scoreboard' && query.size > 0) filtersOf(query);
-    const [first, ...more] = tab.sections.map((section) => section.make);
-    const node = first?.() ?? null;
+    const [first, ...more] = tab.sections.map(
+      (section) => () => (section.cases ? withCases(section.id, section.make) : Promise.resolve(section.make())),
+    );
+    const node = (await first?.()) ?? null;
     const nodes = node ? [node] : [];
     if (!node?.querySelector('h1')) nodes.unshift(el('h1', { class: 'read-aloud' }, tab.title));
     return { title: tab === tabs[0] ? '' : tab.title, nodes, more };
   }
   const title = decodeURIComponent(name);
-  if (kind === 'engine') return { title, nodes: enginePage(title) };
+  if (kind === 'engine') {
+    let nodes: HTMLElement[] = [];
+    const sorry = await withCases('missing', () => {
+      nodes = enginePage(title);
+      return null;
+    });
+    return { title, nodes: sorry ? [sorry] : nodes };
+  }
   return { title, ...(await scenarioPage(title, query)) };
 }
 
@@ -75,7 +96,8 @@ async function route(place: number | null = null): Promise<void> {
   for (const make of found.more ?? []) {
     await new Promise((done) => setTimeout(done));
     if (mine !== visit) return;
-    const node = make();
+    const node = await make();
+    if (mine !== visit) return;
     if (node) page.append(node);
   }
   const at = place === null && anchor && `#${anchor}` !== path ? document.getElementById(anchor) : null;

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { newCursor } from '../../src/common/cursor.ts';
 import { angle, duration, format, median, ratio, timeStep, toNumber } from '../../src/common/format.ts';
+import { fileOf, placeCases } from '../../src/report/case_files.ts';
 import { cellOf, errorOf, gradeOf, logPlace, relativeOf, severity } from '../../src/report/cells.ts';
 import { barScale } from '../../src/report/charts/bars.ts';
 import { logTicks, nearest, spreadsByDecades, unpack, widened, withGaps } from '../../src/report/charts/samples.ts';
@@ -25,6 +26,20 @@ test('numbers are read and written', () => {
     ['×1', '×2.4', '×130', '×2e4', ''],
   );
   assert.deepEqual([median([3, 1, 2]), median([4, 1, 2, 3])], [2, 2.5]);
+});
+
+test('the cases of a large run come to their scenarios', () => {
+  const files = [0, 3, 4];
+  assert.deepEqual(
+    [0, 2, 3, 4, 9].map((s) => fileOf(files, s)),
+    [0, 0, 1, 2, 2],
+  );
+  const scenarios = ['a', 'b', 'c'].map((name) => ({ name, cases: [] as BriefCase[] }) as Scenario);
+  placeCases(scenarios, 1, [[brief('x', 1)], [brief('y', 2), brief('z', 3)], [brief('beyond', 4)]]);
+  assert.deepEqual(
+    scenarios.map((s) => s.cases.map((c) => c.spec)),
+    [[], ['x'], ['y', 'z']],
+  );
 });
 
 test('an observable reports changes alone, with their source', () => {

@@ -5,20 +5,13 @@ import { counted } from '../../common/format.ts';
 import { labelOf, run, scenarioLink } from '../run.ts';
 import { panel } from '../widgets.ts';
 
-const mostNamed = 6;
-
 /** Links to the first red cases. */
 function redCases(): Child {
-  const all = run.scenarios.flatMap((s) => s.cases.filter((c) => c.judged.red).map((c) => ({ s, c })));
-  const links = all
-    .slice(0, mostNamed)
-    .map(
-      ({ s, c }, i): Child => [
-        i ? ', ' : '',
-        el('a', { href: scenarioLink(s.name, { dt: c.dt, spec: c.spec }) }, `${s.name} by ${labelOf(c.spec)}`),
-      ],
-    );
-  return [links, all.length > mostNamed ? ` and ${all.length - mostNamed} more` : ''];
+  const links = run.redCases.map(({ scenario, spec, dt }, i): Child => {
+    const href = scenarioLink(scenario, { dt, spec });
+    return [i ? ', ' : '', el('a', { href }, `${scenario} by ${labelOf(spec)}`)];
+  });
+  return [links, run.red > links.length ? ` and ${run.red - links.length} more` : ''];
 }
 
 /** Title, totals, unfinished parts, and authors. */

@@ -21,6 +21,7 @@ interface OverviewSection {
   id: string; // id of its element
   make: () => HTMLElement | null;
   has?: () => boolean; // false: this run has nothing for it
+  cases?: boolean; // it needs the cases, which in a large run stand beside the page
 }
 
 export interface Tab {
@@ -32,8 +33,8 @@ export interface Tab {
 /** A run of `rigor bench` has no cases to judge: the parts about them are left out. */
 const hasCases = () => run.columns.length > 0;
 const hasBench = () => Boolean(run.bench);
-const hasSteps = () => run.scenarios.some((s) => s.cases.some((c) => c.step));
-const hasOverlaps = () => run.scenarios.some((s) => s.cases.some((c) => c.inRun?.overlapping));
+const hasSteps = () => run.timed;
+const hasOverlaps = () => run.touching;
 
 /** The purpose of a run comes first: a study, a bench, or the verdict. */
 const all: Tab[] = [
@@ -58,18 +59,22 @@ const all: Tab[] = [
     title: 'Verdict',
     sections: [
       { id: 'summary', make: headline, has: hasCases },
-      { id: 'trust', make: trust, has: hasCases },
+      { id: 'trust', make: trust, has: hasCases, cases: true },
       { id: 'insertion-orders', make: insertionOrders, has: () => Boolean(run.insertionOrders) },
     ],
   },
-  { id: 'scoreboard', title: 'Scoreboard', sections: [{ id: 'scoreboard', make: scoreboard, has: hasCases }] },
-  { id: 'cost', title: 'Cost', sections: [{ id: 'timing', make: timing, has: hasSteps }] },
+  {
+    id: 'scoreboard',
+    title: 'Scoreboard',
+    sections: [{ id: 'scoreboard', make: scoreboard, has: hasCases, cases: true }],
+  },
+  { id: 'cost', title: 'Cost', sections: [{ id: 'timing', make: timing, has: hasSteps, cases: true }] },
   {
     id: 'contacts',
     title: 'Contacts',
     sections: [
-      { id: 'in-run', make: contactsActedUpon, has: hasOverlaps },
-      { id: 'audit', make: contactQueries, has: () => run.audit.length > 0 },
+      { id: 'in-run', make: contactsActedUpon, has: hasOverlaps, cases: true },
+      { id: 'audit', make: contactQueries, has: () => run.audit.length > 0, cases: true },
     ],
   },
   { id: 'ledger', title: 'Parity ledger', sections: [{ id: 'ledger', make: ledgerSummary, has: hasCases }] },

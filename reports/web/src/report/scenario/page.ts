@@ -7,6 +7,7 @@ import { newCursor } from '../../common/cursor.ts';
 import { loadJson } from '../../common/data_files.ts';
 import { el } from '../../common/elements.ts';
 import type { ScenarioData } from '../data.ts';
+import { loadCases } from '../loading.ts';
 import { run } from '../run.ts';
 import { panel } from '../widgets.ts';
 import { caseAudit } from './audit.ts';
@@ -75,6 +76,7 @@ export async function scenarioPage(name: string, query: URLSearchParams): Promis
   let data: ScenarioData;
   try {
     data = await loadJson<ScenarioData>(`scenario-${index}`);
+    await loadCases(index);
   } catch (error) {
     return sorry((error as Error).message);
   }

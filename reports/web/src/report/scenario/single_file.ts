@@ -28,6 +28,8 @@ export function runOfOne(whole: Run, name: string): Run {
     tasks: [],
     costs: [],
     insertionOrders: null,
+    caseFiles: null,
+    redCases: [],
     audit: whole.audit.filter((a) => a.scenario === name),
     bench: null,
   };
