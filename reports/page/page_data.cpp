@@ -224,8 +224,8 @@ std::size_t countCases(const ViewModel& view, std::size_t scenario) {
     return count;
 }
 
-/// What the page needs of the cases before it has loaded them: the first red ones, and whether any case has what a
-/// section is about.
+/// Facts about the cases that the page shows before it has loaded them: the first red ones, and whether any case has
+/// times or audited contacts.
 void addCaseFacts(const ViewModel& view, Json& overview) {
     Json red = Json::array();
     bool timed = false, touching = false;

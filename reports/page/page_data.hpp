@@ -13,14 +13,14 @@
 
 namespace rigor::report {
 
-/// Where the cases of the overview are: in the page, or, for a large run, in files beside it that it loads when they are
+/// Place of the cases of the overview: in the page, or, for a large run, in files beside it that it loads when they are
 /// looked at.
 enum class CasesOfPage { Inside, Beside };
 
 /// The data behind the page's overview, which is in the page, and behind the page of one scenario, which
 /// stands beside it in data/scenario-<index>.js, as JSON.
 std::string overviewJson(const ViewModel& view, CasesOfPage cases = CasesOfPage::Inside);
-/// For CasesOfPage::Beside: the first scenario of each file; a file has some hundred cases.
+/// The first scenario of each file of CasesOfPage::Beside; a file has some hundred cases.
 std::vector<std::size_t> caseFiles(const ViewModel& view);
 /// Content of data/cases-<file>.js: for each scenario of the file an array of its cases, as they would stand in the page.
 std::string casesJson(const ViewModel& view, std::size_t file);

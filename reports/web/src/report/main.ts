@@ -44,7 +44,7 @@ function partsOf(hash: string): { path: string; anchor: string; query: URLSearch
   return { path: `#${tabOf(anchor).id}`, anchor, query: new URLSearchParams(query) };
 }
 
-/** What `make` makes once the cases are there, or the reason why they are not. */
+/** The section that `make` makes once the cases are there, or the reason why they are not. */
 async function withCases(id: string, make: () => HTMLElement | null): Promise<HTMLElement | null> {
   try {
     await loadCases();
