@@ -87,6 +87,14 @@ void InstanceSlot::requestStep(std::size_t step) {
     goTo_ = step;
     stages_ = 0;
 }
+void InstanceSlot::requestReset() {
+    if (!alive() && state_ != State::Loading) return beginAnew();
+    requestStep(plan.startStep);
+    resetting_ = true;
+}
+void InstanceSlot::requestRestart() {
+    beginAnew();
+}
 void InstanceSlot::requestStage() {
     stages_ = std::min(stages_ + 1, kMostStages);
 }
@@ -101,6 +109,19 @@ std::future<StateReply> InstanceSlot::requestState() {
     else
         promise.set_value({"", std::string("the instance is ") + instanceStateName(state_), {}, 0});
     return future;
+}
+
+/// The state of an instance whose process has yet to be started.
+void InstanceSlot::beginAnew() {
+    state_ = State::Loading;
+    message_.clear();
+    step_ = plan.startStep;
+    inStep_ = resetting_ = false;
+    catchingUp_ = toLoad_ = true;
+    goTo_.reset();
+    stages_ = 0;
+    drag_.reset();
+    sequence_ = ++clock_.sequence;
 }
 
 bool InstanceSlot::hasWork() const {
@@ -174,28 +195,35 @@ void InstanceSlot::store(InstanceProcess::Answer answer, bool ofStage) {
         inStep_ = false;
         for (auto& promise : nows_) promise.set_value({"", message_, {}, 0});
         nows_.clear();
+        // It was dying when the reset was requested.
+        if (resetting_) return beginAnew();
     }
     sequence_ = ++clock_.sequence;
 }
 
-bool InstanceSlot::load() {
+/// Starts a process and loads the scenario into it. `lock` is the clock's; it is released meanwhile.
+void InstanceSlot::load(std::unique_lock<std::mutex>& lock) {
+    toLoad_ = resetting_ = false;
+    auto ended = std::move(process_);
+    lock.unlock();
+    ended.reset();  // it may have to be waited for
+    std::unique_ptr<InstanceProcess> process;
+    std::string problem;
     try {
-        auto process = std::make_unique<InstanceProcess>(binary_, limits_.memoryMiB);
-        const std::lock_guard lock(clock_.mutex);
-        process_ = std::move(process);
-        if (closing_) return false;
+        process = std::make_unique<InstanceProcess>(binary_, limits_.memoryMiB);
     } catch (const std::exception& error) {
-        const std::lock_guard lock(clock_.mutex);
-        store({Kind::Refused, {}, "error", error.what()});
-        return false;
+        problem = error.what();
     }
+    lock.lock();
+    if (!process) return store({Kind::Refused, {}, "error", problem});
+    process_ = std::move(process);
+    if (closing_) return;
+    lock.unlock();
     auto answer = process_->send(
         {{"command", "load"}, {"text", plan.text}, {"spec", plan.spec.text()}, {"dt", plan.dt}},
         limits_.loadSeconds);
-    const std::lock_guard lock(clock_.mutex);
+    lock.lock();
     store(std::move(answer));
-    clock_.changed.notify_all();
-    return true;
 }
 
 /// An engine without snapshots goes back by running again from the start.
@@ -205,10 +233,13 @@ double InstanceSlot::secondsFor(const json& request) const {
 }
 
 void InstanceSlot::run() {
-    const bool loaded = load();
     std::unique_lock lock(clock_.mutex);
-    clock_.changed.notify_all();
-    while (loaded && !closing_) {
+    while (!closing_) {
+        if (toLoad_) {
+            load(lock);
+            clock_.changed.notify_all();
+            continue;
+        }
         if (!hasWork()) {
             clock_.changed.wait(lock);
             continue;
@@ -219,10 +250,11 @@ void InstanceSlot::run() {
         auto answer = process_->send(work.request, secondsFor(work.request));
         lock.lock();
         requestedAt_.reset();
-        const bool ofStage = work.request.at("command") == "stage";
+        const std::string command = work.request.at("command");
         if (work.now) answerNow(std::move(*work.now), answer);
         if (!work.now || answer.kind == Kind::Crashed || answer.kind == Kind::TimedOut)
-            store(std::move(answer), ofStage);
+            store(std::move(answer), command == "stage");
+        if (command == "go_to" && !goTo_) resetting_ = false;
         clock_.changed.notify_all();
     }
 }

@@ -81,6 +81,10 @@ class InstanceSlot {
     bool setsThePace() const;
 
     void requestStep(std::size_t step);
+    /// Back to the start; in a new process if this one has ended, or ends before it is there.
+    void requestReset();
+    /// A new process for an instance that has ended; it comes to the session's time.
+    void requestRestart();
     void requestStage();
     void requestDrag(nlohmann::json drag);  ///< null: release
     std::future<StateReply> requestState();
@@ -91,7 +95,8 @@ class InstanceSlot {
         std::optional<std::promise<StateReply>> now;
     };
     void run();
-    bool load();
+    void load(std::unique_lock<std::mutex>& lock);
+    void beginAnew();
     bool hasWork() const;
     Work takeWork();
     void store(InstanceProcess::Answer answer, bool ofStage = false);
@@ -106,6 +111,8 @@ class InstanceSlot {
     std::size_t step_ = 0;
     double stepSeconds_ = 0.0;  ///< written and read by the thread alone
     bool inStep_ = false, catchingUp_ = true, closing_ = false;
+    bool toLoad_ = true;      ///< the thread starts a new process
+    bool resetting_ = false;  ///< a reset was requested and the instance is not at its start yet
     std::optional<std::chrono::steady_clock::time_point> requestedAt_;
     nlohmann::json description_ = nlohmann::json::object();
     Packet frame_;

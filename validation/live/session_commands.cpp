@@ -165,31 +165,20 @@ void Session::stage() {
 
 /// All instances back to their start; those that have come to an end begin anew.
 void Session::reset() {
-    Slots gone;  // end after the lock
     const std::lock_guard lock(clock_.mutex);
     pause();
     clock_.target = 0;
-    for (auto& instance : instances_) {
-        if (instance->alive() || instance->state() == InstanceSlot::State::Loading) {
-            instance->requestStep(0);
-            continue;
-        }
-        auto fresh = makeInstance(instance->plan);
-        gone.push_back(std::exchange(instance, std::move(fresh)));
-    }
+    for (const auto& instance : instances_) instance->requestReset();
 }
 
 /// A new process for an instance that has ended. It comes to the session's time like one that is added.
 void Session::restart(int id) {
-    std::unique_ptr<InstanceSlot> gone;  // ends after the lock: its thread needs it
     const std::lock_guard lock(clock_.mutex);
-    const auto it = std::find_if(instances_.begin(), instances_.end(),
-                                 [id](const auto& instance) { return instance->plan.id == id; });
-    if (it == instances_.end()) throw CommandError("no such instance");
-    if ((*it)->alive() || (*it)->state() == InstanceSlot::State::Loading)
+    InstanceSlot* instance = find(id);
+    if (instance == nullptr) throw CommandError("no such instance");
+    if (instance->alive() || instance->state() == InstanceSlot::State::Loading)
         throw CommandError("the instance has not ended");
-    auto fresh = makeInstance((*it)->plan);
-    gone = std::exchange(*it, std::move(fresh));
+    instance->requestRestart();
 }
 
 void Session::drag(const json& request, bool release) {

@@ -134,6 +134,23 @@ TEST_F(Sessions, EnginesThatFailLeaveTheOthersAlone) {
     })) << "a reset begins anew";
 }
 
+/// An engine that hangs is alive until its time is up: a reset that comes before is not lost with it.
+TEST_F(Sessions, AResetWhileAnEngineIsDyingBeginsItAnew) {
+    open("double_hang,double_free_flight");
+    send({{"command", "step"}, {"steps", 40}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->instance(1)["step"] == 40; }));
+    viewer_->look(0);
+    ASSERT_EQ(viewer_->instance(0)["state"], "ready") << "it hangs, and its time is not up yet";
+    const auto reached = viewer_->instance(0)["step"];
+    ASSERT_LT(reached, 40);
+    send({{"command", "reset"}});
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->allReady() && viewer_->allAt(0); }));
+    // It is as able as at first, and hangs at the same step.
+    send({{"command", "step"}, {"steps", 40}});
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->instance(0)["state"] == "timeout"; }));
+    EXPECT_EQ(viewer_->instance(0)["step"], reached);
+}
+
 TEST_F(Sessions, StagesStopInsideAStep) {
     open("rigor,double_free_flight");
     EXPECT_TRUE(viewer_->instance(0)["has_stages"].get<bool>());
