@@ -101,6 +101,29 @@ export function makeHistory(name: string): string {
   return folder;
 }
 
+/** The collision cases of the library that have closed forms. */
+export function makeCollide(name: string): string {
+  const folder = join(binaries, 'web_runs', name);
+  rmSync(folder, { recursive: true, force: true });
+  try {
+    program('bin/rigor', 'collide', 'analytic', '--engines', 'rigor,fcl', '--out', folder, '-q');
+  } catch {
+    // an engine may be wrong: the files are written all the same
+  }
+  return folder;
+}
+
+/** A contact problem by two solvers, and what `rigor solve` prints of it. */
+export function makeSolve(name: string): { folder: string; json: string } {
+  const folder = join(binaries, 'web_runs', name);
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  const file = join(folder, 'stack.hdf5');
+  program('bin/rigor', 'freeze', 'stack_forces', '--engine', 'rigor', '--step', '30', '--out', file);
+  const options = ['--solvers', 'rigor:solver=pgs,rigor:solver=nsgs', '--iterations', '1,10,100'];
+  return { folder, json: program('bin/rigor', 'solve', file, ...options, '--out', folder, '--json', '-q') };
+}
+
 /** Rows of a run's store. */
 export const query = (run: string, sql: string): unknown[][] =>
   JSON.parse(program('tests/report_tool', 'query', join(run, 'results.sqlite'), sql)) as unknown[][];

@@ -175,7 +175,7 @@ function cases(): HTMLElement {
   const query = new URLSearchParams(location.hash.slice(1));
   const picture = new Picture();
   Object.assign(picture.element, { picture });
-  const title = el('h3', null);
+  const title = el('h3', { hidden: true }); // until it names a case
   const choice = el('div', { class: 'chips', role: 'group', 'aria-label': 'Engines' });
   const body = el('tbody', null);
   const status = el('p', { class: 'muted small', role: 'status' });
@@ -189,6 +189,7 @@ function cases(): HTMLElement {
     const answer = c.answers.find((a) => a.engine === engine) ?? c.answers[0];
     if (!answer) return;
     shown = c;
+    title.hidden = false;
     title.replaceChildren(c.name, el('span', { class: 'muted small' }, ` ${c.tags.join(', ')}`));
     choice.replaceChildren(
       ...c.answers.map((a) =>

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Pages by the rules of axe-core: contrast, names of controls, headings, tables; light on a desktop, dark on a phone.
+// Pages by the rules of axe-core: contrast, names of controls, headings, tables; light and dark, on a desktop and a phone.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, test } from 'node:test';
 import {
   makeBench,
+  makeCollide,
   makeHistory,
+  makeSolve,
   makeSynthetic,
   type Opened,
   open,
@@ -18,10 +20,10 @@ import {
 } from '../browser.ts';
 
 const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
-const looks = [
-  { colorScheme: 'light', viewport: { width: 1400, height: 900 } },
-  { colorScheme: 'dark', viewport: { width: 390, height: 844 } },
-] as const;
+const looks = (['light', 'dark'] as const).flatMap((colorScheme) => [
+  { colorScheme, viewport: { width: 1400, height: 900 } },
+  { colorScheme, viewport: { width: 390, height: 844 } },
+]);
 
 interface Finding {
   id: string;
@@ -41,6 +43,8 @@ async function findings(it: Opened, hash: string): Promise<string[]> {
     )) as Finding[];
     const where = `${look.colorScheme}, ${look.viewport.width} px`;
     for (const f of found) lines.push(`${where}: ${f.impact} ${f.id}, ${f.nodes.length}: ${f.nodes[0]?.html}`);
+    const wide = await page.evaluate('document.documentElement.scrollWidth');
+    if (Number(wide) > look.viewport.width) lines.push(`${where}: ${wide} px wide`);
     await close();
   }
   return lines;
@@ -65,5 +69,15 @@ describe('a bench has none', { skip }, () => {
 
 describe('a history has none', { skip }, () => {
   const it = reportOf(() => makeHistory('accessible_history'));
+  test('the page', async () => assert.deepEqual(await findings(it, ''), []));
+});
+
+describe('a page of collision queries has none', { skip }, () => {
+  const it = reportOf(() => makeCollide('accessible_collide'));
+  test('the page', async () => assert.deepEqual(await findings(it, ''), []));
+});
+
+describe('a page of contact problems has none', { skip }, () => {
+  const it = reportOf(() => makeSolve('accessible_solve').folder);
   test('the page', async () => assert.deepEqual(await findings(it, ''), []));
 });

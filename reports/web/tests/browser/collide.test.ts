@@ -3,27 +3,15 @@
 //
 // The page of `rigor collide`: a case in 3D with the normals of its record, the wrong ones first, restored by the address.
 import assert from 'node:assert/strict';
-import { readFileSync, rmSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { before, describe, test } from 'node:test';
 import type { CollideRun } from '../../src/collide/data.ts';
 import type { Point } from '../../src/common/finding.ts';
-import { program, reportOf, screenshots, skip } from '../browser.ts';
-
-/** The cases of the library that have closed forms. */
-function makeCollide(): string {
-  const folder = join(process.env.RIGOR_BINARY_DIR ?? '', 'web_runs', 'collide');
-  rmSync(folder, { recursive: true, force: true });
-  try {
-    program('bin/rigor', 'collide', 'analytic', '--engines', 'rigor,fcl', '--out', folder, '-q');
-  } catch {
-    // an engine may be wrong: the files are written all the same
-  }
-  return folder;
-}
+import { makeCollide, reportOf, screenshots, skip } from '../browser.ts';
 
 describe('the page of collision queries', { skip }, () => {
-  const it = reportOf(makeCollide);
+  const it = reportOf(() => makeCollide('collide'));
   before(() => it.page.setDefaultTimeout(60_000));
   const record = () => JSON.parse(readFileSync(join(it.run, 'collide.json'), 'utf8')) as CollideRun;
   const away = ({ from, to }: { from: Point; to: Point }) => {

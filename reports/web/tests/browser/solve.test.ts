@@ -3,23 +3,17 @@
 //
 // The page of `rigor solve`: a row for each solver of the record, and the residual over iterations and over time.
 import assert from 'node:assert/strict';
-import { mkdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, test } from 'node:test';
 import type { SolveProblem } from '../../src/solve/data.ts';
 import { solved } from '../../src/solve/lines.ts';
-import { program, reportOf, screenshots, skip } from '../browser.ts';
+import { makeSolve, reportOf, screenshots, skip } from '../browser.ts';
 
 describe('the page of a contact problem', { skip }, () => {
   let record: { problems: SolveProblem[] };
   const it = reportOf(() => {
-    const folder = join(process.env.RIGOR_BINARY_DIR ?? '', 'web_runs', 'solve');
-    rmSync(folder, { recursive: true, force: true });
-    mkdirSync(folder, { recursive: true });
-    const file = join(folder, 'stack.hdf5');
-    program('bin/rigor', 'freeze', 'stack_forces', '--engine', 'rigor', '--step', '30', '--out', file);
-    const options = ['--solvers', 'rigor:solver=pgs,rigor:solver=nsgs', '--iterations', '1,10,100'];
-    record = JSON.parse(program('bin/rigor', 'solve', file, ...options, '--out', folder, '--json', '-q'));
+    const { folder, json } = makeSolve('solve');
+    record = JSON.parse(json);
     return folder;
   });
 
