@@ -142,9 +142,13 @@ TEST_F(Sessions, AResetWhileAnEngineIsDyingBeginsItAnew) {
     viewer_->look(0);
     ASSERT_EQ(viewer_->instance(0)["state"], "ready") << "it hangs, and its time is not up yet";
     const auto reached = viewer_->instance(0)["step"];
+    const auto frames = viewer_->instance(0)["frames"].get<int>();
     ASSERT_LT(reached, 40);
     send({{"command", "reset"}});
-    EXPECT_TRUE(viewer_->until([&] { return viewer_->allReady() && viewer_->allAt(0); }));
+    EXPECT_TRUE(viewer_->until([&] {
+        return viewer_->instance(0)["state"] == "ready" && viewer_->instance(0)["frames"] > frames &&
+               viewer_->allAt(0);
+    })) << "a frame of a new process";
     // It is as able as at first, and hangs at the same step.
     send({{"command", "step"}, {"steps", 40}});
     EXPECT_TRUE(viewer_->until([&] { return viewer_->instance(0)["state"] == "timeout"; }));
