@@ -7,6 +7,7 @@
 #include "adapters/mujoco/collision.hpp"
 #include "adapters/mujoco/geoms.hpp"
 #include "adapters/mujoco/library.hpp"
+#include "adapters/mujoco/mjcf.hpp"
 #include "adapters/mujoco/world.hpp"
 
 namespace rigor::mujoco {
@@ -30,14 +31,46 @@ class MujocoEngine final : public adapter::Engine, public adapter::DynamicsEngin
         c.planar = true;
         c.shapes = {"sphere",       "box",       "capsule", "cylinder", "hull",      "half_space",
                     "height_field", "ellipsoid", "circle",  "polygon",  "half_plane"};
-        c.joints = {"ball",        "hinge",          "hinge.limit",     "hinge.motor",   "hinge.spring",
-                    "slider",      "slider.limit",   "slider.motor",    "slider.spring", "fixed",
-                    "distance",    "distance.limit", "distance.spring", "wheel",         "wheel.limit",
-                    "wheel.motor", "wheel.spring"};
+        c.joints = {"ball",
+                    "hinge",
+                    "hinge.limit",
+                    "hinge.motor",
+                    "hinge.spring",
+                    "slider",
+                    "slider.limit",
+                    "slider.motor",
+                    "slider.spring",
+                    "fixed",
+                    "distance",
+                    "distance.limit",
+                    "distance.spring",
+                    "wheel",
+                    "wheel.limit",
+                    "wheel.motor",
+                    "wheel.spring",
+                    "six_dof",
+                    "six_dof.limit",
+                    "six_dof.motor",
+                    "six_dof.spring",
+                    "ball.limit",
+                    "cone_twist",
+                    "cone_twist.limit",
+                    "cone_twist.motor",
+                    "distance.motor",
+                    "ball.break",
+                    "hinge.break",
+                    "fixed.break",
+                    "distance.break"};
         c.contactImpulses = c.rollingFriction = c.torsionalFriction = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.contactFilters = c.shapeFilters = true;
         c.libraryLacks = {
+            {"ball.spring", kWholeRotation},
+            {"cone_twist.spring", kWholeRotation},
+            {"slider.break", kEqualities},
+            {"wheel.break", kEqualities},
+            {"six_dof.break", kEqualities},
+            {"cone_twist.break", kEqualities},
             {"cone", kGeomTypes},
             {"segment", kGeomTypes},
             {"chain", kGeomTypes},

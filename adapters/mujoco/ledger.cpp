@@ -61,6 +61,9 @@ std::vector<LedgerEntry> MujocoWorld::ledger() const {
         if (model.neq > 0)
             add("loops", "rigid", std::to_string(model.neq) + " equality constraints",
                 "soft, as contacts are");
+        if (std::any_of(scenario_.joints.begin(), scenario_.joints.end(), canBreak))
+            add("breaking_joints", "a step's mean reaction above the strength",
+                "forces of equality constraints after each step; off from the next step on");
     }
     if (!model_.motors.empty())
         add("motors", "speed and largest force", "a force set at the start of each step, bounded",
@@ -80,7 +83,8 @@ std::vector<LedgerEntry> MujocoWorld::ledger() const {
     if (any([](const scenario::Body& b) {
             return b.linearVelocityKept != 1.0 || b.angularVelocityKept != 1.0;
         }))
-        add("damping", "v(t) = v0 kept^t", "damping of the free joint, exact per step");
+        add("damping", "v(t) = v0 kept^t",
+            "of free bodies that of their joint, exact per step; of others a force at the start of the step");
     if (adapter::hasCollidingShape<scenario::ConvexHull>(scenario_) || planar_)
         add("hull_vertices", "f64", "f32", "mjModel::mesh_vert is single precision");
     if (adapter::hasCollidingShape<scenario::HeightField>(scenario_))

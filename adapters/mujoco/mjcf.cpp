@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numbers>
 
+#include "adapters/mujoco/coordinates.hpp"
 #include "adapters/mujoco/geoms.hpp"
 
 namespace rigor::mujoco {
@@ -18,24 +19,20 @@ using scenario::Joint;
 using scenario::JointAxis;
 using scenario::JointType;
 
-std::string attribute(const char* name, const std::string& value) {
-    return std::string(" ") + name + "=\"" + value + "\"";
-}
 std::string poseText(const Pose& pose) {
     return attribute("pos", exact(pose.position)) + attribute("quat", exact(pose.orientation));
 }
-std::string softnessText(const Softness& s, const char* solref = "solref", const char* solimp = "solimp") {
-    std::string ref, imp;
-    for (const double x : s.solref) ref += exact(x) + " ";
-    for (const double x : s.solimp) imp += exact(x) + " ";
-    return attribute(solref, ref) + attribute(solimp, imp);
-}
-
 class ModelWriter {
   public:
     ModelWriter(const adapter::Scenario& scenario, const adapter::PairTable& pairs, bool planar, double dt,
                 const ModelSettings& settings, Model& model)
-        : scenario_(scenario), pairs_(pairs), planar_(planar), dt_(dt), settings_(settings), model_(model) {}
+        : scenario_(scenario),
+          pairs_(pairs),
+          planar_(planar),
+          dt_(dt),
+          settings_(settings),
+          model_(model),
+          coordinates_(scenario, planar, settings, model) {}
 
     std::string text() {
         model_.common = commonSurface();
@@ -48,7 +45,7 @@ class ModelWriter {
         std::string pairs = explicitPairs();
         return "<mujoco>" + head() + "<asset>" + assets_ + "</asset><worldbody>" + world +
                "</worldbody><contact>" + pairs + "</contact><tendon>" + tendons_ + "</tendon><equality>" +
-               equalities_ + "</equality><actuator>" + actuators_ + "</actuator></mujoco>";
+               equalities_ + "</equality><actuator>" + coordinates_.actuators() + "</actuator></mujoco>";
     }
 
   private:
@@ -145,7 +142,7 @@ class ModelWriter {
             if (link.joint == kNone)
                 writeFree(link, out);
             else
-                writeJoint(link, out);
+                out += coordinates_.text(link);
         }
         if (body.collides)
             for (std::size_t i = 0; i < body.shapes.size(); ++i) {
@@ -155,12 +152,24 @@ class ModelWriter {
             }
         for (std::size_t j = 0; j < scenario_.joints.size(); ++j) {
             const Joint& joint = scenario_.joints[j];
-            if (joint.type != JointType::Distance) continue;
-            if (joint.bodyA == index) writeSite(jointTag(j, "_a"), inverse(link.frame) * joint.anchorA, out);
-            if (joint.bodyB == index) writeSite(jointTag(j, "_b"), inverse(link.frame) * joint.anchorB, out);
+            if (!hasTendon(joint)) continue;
+            const Ends ends = endsOf(joint);
+            if (joint.bodyA == index) writeSite(jointTag(j, "_a"), inverse(link.frame) * ends.a, out);
+            if (joint.bodyB == index) writeSite(jointTag(j, "_b"), inverse(link.frame) * ends.b, out);
         }
         for (const int child : link.children) writeBody(child, out);
         out += "</body>";
+    }
+    static bool hasTendon(const Joint& joint) {
+        return joint.type == JointType::Distance || swingLimit(joint) < std::numbers::pi;
+    }
+    /// Ends of a joint's tendon in the frames of its bodies.
+    struct Ends {
+        Vec3 a, b;
+    };
+    static Ends endsOf(const Joint& joint) {
+        if (joint.type == JointType::Distance) return {joint.anchorA, joint.anchorB};
+        return {joint.anchorA + joint.axisA, joint.anchorB + joint.axisB};
     }
     static void writeSite(const std::string& name, const Vec3& at, std::string& out) {
         out += "<site" + attribute("name", name) + attribute("pos", exact(at)) + "/>";
@@ -182,58 +191,6 @@ class ModelWriter {
                attribute("ref", exact(angleAboutZ(rest.orientation))) + "/>";
     }
 
-    void writeJoint(const Link& link, std::string& out) {
-        const Joint& joint = scenario_.joints[link.joint];
-        const Vec3 anchor = anchorIn(link, joint), axis = axisIn(link, joint);
-        const std::string at = attribute("pos", exact(anchor));
-        switch (joint.type) {
-            case JointType::Ball:
-                if (planar_)
-                    writeCoordinate(link.joint, "", "hinge", {0, 0, 1}, at, joint.axes[0], out);
-                else
-                    out += "<joint" + attribute("name", jointTag(link.joint)) + " type=\"ball\"" + at + "/>";
-                return;
-            case JointType::Hinge:
-                return writeCoordinate(link.joint, "", "hinge", axis, at, joint.axes[0], out);
-            case JointType::Slider:
-                return writeCoordinate(link.joint, "", "slide", axis, at, joint.axes[0], out);
-            case JointType::Fixed:
-                return;
-            case JointType::Wheel: {
-                const Vec3 spin = spinIn(link, scenario_, joint);
-                // The first joint of a body turns or moves the axes of the next.
-                if (link.reversed)
-                    writeCoordinate(link.joint, "_spin", "hinge", spin, at, joint.axes[1], out);
-                writeCoordinate(link.joint, "", "slide", axis, at, joint.axes[0], out);
-                if (!link.reversed)
-                    writeCoordinate(link.joint, "_spin", "hinge", spin, at, joint.axes[1], out);
-                return;
-            }
-            default:
-                throw adapter::notInAdapter("mujoco", std::string("joint '") + jointName(joint.type) + "'",
-                                            "joint '" + joint.name + "'");
-        }
-    }
-    void writeCoordinate(int index, const char* what, const char* type, const Vec3& axis,
-                         const std::string& at, const JointAxis& use, std::string& out) {
-        const std::string name = jointTag(index, what);
-        out += "<joint" + attribute("name", name) + attribute("type", type) + attribute("axis", exact(axis)) +
-               at;
-        if (use.mode == AxisMode::Limited)
-            out +=
-                " limited=\"true\"" +
-                attribute("range", exact(std::max(use.lower, -1e6)) + " " + exact(std::min(use.upper, 1e6))) +
-                softnessText(settings_.softness, "solreflimit", "solimplimit");
-        if (use.hasSpring())
-            out += attribute("stiffness", exact(use.stiffness)) + attribute("damping", exact(use.damping)) +
-                   attribute("springref", exact(use.target));
-        out += "/>";
-        if (!use.hasMotor()) return;
-        model_.motors.push_back(
-            {index, static_cast<int>(model_.motors.size()), 0, use.motorSpeed, use.motorMaxForce});
-        actuators_ += "<motor" + attribute("name", name) + attribute("joint", name) + "/>";
-    }
-
     /// `place` is the pose of the body's frame in that of the element that the geom is written into.
     void writeGeom(int body, int shape, const Pose& place, std::string& out) {
         const auto& source = scenario_.bodies[body].shapes[shape];
@@ -244,64 +201,84 @@ class ModelWriter {
         assets_ += geom.asset;
     }
 
-    /// A distance joint is a straight tendon between two sites: a rod holds its length, a rope bounds it.
+    /// A distance joint is a straight tendon between two sites: a rod holds its length, a rope bounds it. So is the
+    /// bound of a swing: two points a metre from the anchor, along the axes of A and B, are 2 sin(swing / 2) apart.
     void writeTendons(std::string& world) {
         for (std::size_t j = 0; j < scenario_.joints.size(); ++j) {
             const Joint& joint = scenario_.joints[j];
-            if (joint.type != JointType::Distance) continue;
-            if (joint.bodyA == kNone) writeSite(jointTag(j, "_a"), joint.anchorA, world);
-            const JointAxis& axis = joint.axes[0];
+            if (!hasTendon(joint)) continue;
+            if (joint.bodyA == kNone) writeSite(jointTag(j, "_a"), endsOf(joint).a, world);
             tendons_ += "<spatial" + attribute("name", jointTag(j));
-            if (axis.mode == AxisMode::Limited)
-                tendons_ += " limited=\"true\"" +
-                            attribute("range", exact(std::max(axis.lower, 0.0)) + " " +
-                                                   exact(std::min(axis.upper, 1e6))) +
-                            softnessText(settings_.rigid, "solreflimit", "solimplimit");
-            if (axis.hasSpring())
-                tendons_ += attribute("stiffness", exact(axis.stiffness)) +
-                            attribute("damping", exact(axis.damping)) +
-                            attribute("springlength", exact(std::max(axis.target, 0.0)));
+            if (joint.type == JointType::Distance)
+                writeDistance(static_cast<int>(j));
+            else
+                tendons_ += bounds(0.0, 2.0 * std::sin(0.5 * swingLimit(joint)), settings_.softness);
             tendons_ += "><site" + attribute("site", jointTag(j, "_a")) + "/><site" +
                         attribute("site", jointTag(j, "_b")) + "/></spatial>";
-            if (axis.mode == AxisMode::Limited || axis.mode == AxisMode::Free) continue;
-            const auto poseOf = [&](int body) {
-                return body == kNone ? Pose{} : scenario_.bodies[body].pose;
-            };
-            const double now =
-                norm(poseOf(joint.bodyB) * joint.anchorB - poseOf(joint.bodyA) * joint.anchorA);
-            equalities_ += "<tendon" + attribute("tendon1", jointTag(j)) +
-                           attribute("polycoef", exact(joint.length - now) + " 0 0 0 0") + "/>";
         }
+    }
+    static std::string bounds(double lower, double upper, const Softness& softness) {
+        return " limited=\"true\"" + attribute("range", exact(lower) + " " + exact(upper)) +
+               softnessText(softness, "solreflimit", "solimplimit");
+    }
+    void writeDistance(int index) {
+        const Joint& joint = scenario_.joints[index];
+        const JointAxis& axis = joint.axes[0];
+        const bool rod = axis.mode != AxisMode::Limited && axis.mode != AxisMode::Free;
+        if (canBreak(joint) && !rod)
+            throw adapter::notInLibrary("mujoco", "a distance that breaks and is no rod", kEqualities,
+                                        "joint '" + joint.name + "'");
+        if (axis.mode == AxisMode::Limited)
+            tendons_ += bounds(std::max(axis.lower, 0.0), std::min(axis.upper, 1e6), settings_.rigid);
+        if (axis.hasSpring())
+            tendons_ += attribute("stiffness", exact(axis.stiffness)) +
+                        attribute("damping", exact(axis.damping)) +
+                        attribute("springlength", exact(std::max(axis.target, 0.0)));
+        coordinates_.addMotor(index, attribute("tendon", jointTag(index)), axis);
+        if (!rod) return;
+        const auto poseOf = [&](int body) { return body == kNone ? Pose{} : scenario_.bodies[body].pose; };
+        const double now = norm(poseOf(joint.bodyB) * joint.anchorB - poseOf(joint.bodyA) * joint.anchorA);
+        addEquality(index, "tendon",
+                    attribute("tendon1", jointTag(index)) +
+                        attribute("polycoef", exact(joint.length - now) + " 0 0 0 0"));
+    }
+    /// The text's order of equalities is the model's.
+    void addEquality(int joint, const char* kind, const std::string& attributes) {
+        model_.equalities[joint].push_back(model_.equalityCount++);
+        equalities_ += std::string("<") + kind + attributes + "/>";
     }
 
     void writeLoops() {
         for (const int j : model_.forest.loops) {
             const Joint& joint = scenario_.joints[j];
             if (!canCloseLoop(joint))
-                throw adapter::notInAdapter(
-                    "mujoco",
-                    std::string("joint '") + jointName(joint.type) +
-                        "' with more than an axis, or with a travel, that closes a loop",
-                    "joint '" + joint.name + "'");
-            const bool weld = joint.type == JointType::Fixed;
+                throw adapter::notInLibrary("mujoco",
+                                            std::string("joint '") + jointName(joint.type) +
+                                                "' with more than its kind that " +
+                                                (canBreak(joint) ? "breaks" : "closes a loop"),
+                                            kEqualities, "joint '" + joint.name + "'");
             // body1 is one of the model's, body2 the world where it is left out.
-            const int one = joint.bodyB != kNone ? joint.bodyB : joint.bodyA;
-            const int two = one == joint.bodyB ? joint.bodyA : joint.bodyB;
+            const bool ofB = joint.bodyB != kNone;
+            const int one = ofB ? joint.bodyB : joint.bodyA, two = ofB ? joint.bodyA : kNone;
             const Link& link = model_.forest.links[one];
-            const Vec3 anchor = inverse(link.frame) * (one == joint.bodyB ? joint.anchorB : joint.anchorA);
-            const Vec3 along =
-                rotateInverse(link.frame.orientation, one == joint.bodyB ? joint.axisB : joint.axisA);
+            const Vec3 anchor = inverse(link.frame) * (ofB ? joint.anchorB : joint.anchorA);
+            const Vec3 along = rotateInverse(link.frame.orientation, ofB ? joint.axisB : joint.axisA);
             const std::string ends =
                 attribute("body1", bodyName(one)) + (two == kNone ? "" : attribute("body2", bodyName(two)));
-            if (weld) {
-                equalities_ += "<weld" + ends + "/>";
+            if (joint.type == JointType::Fixed) {
+                addEquality(j, "weld", ends + attribute("anchor", exact(weldPoint(joint, two))));
                 continue;
             }
-            equalities_ += "<connect" + ends + attribute("anchor", exact(anchor)) + "/>";
+            addEquality(j, "connect", ends + attribute("anchor", exact(anchor)));
             // A second point of the axis takes the two turns away that a ball has more.
             if (joint.type == JointType::Hinge && !planar_)
-                equalities_ += "<connect" + ends + attribute("anchor", exact(anchor + 0.1 * along)) + "/>";
+                addEquality(j, "connect", ends + attribute("anchor", exact(anchor + kConnectArm * along)));
         }
+    }
+    /// The anchor in MuJoCo's frame of the second body of a weld, or in the world.
+    Vec3 weldPoint(const Joint& joint, int second) const {
+        if (second != kNone) return inverse(model_.forest.links[second].frame) * joint.anchorA;
+        return joint.bodyB == kNone ? scenario_.bodies[joint.bodyA].pose * joint.anchorA : joint.anchorA;
     }
 
     const adapter::Scenario& scenario_;
@@ -310,7 +287,8 @@ class ModelWriter {
     double dt_;
     const ModelSettings& settings_;
     Model& model_;
-    std::string assets_, planes_, tendons_, equalities_, actuators_;
+    CoordinateWriter coordinates_;
+    std::string assets_, planes_, tendons_, equalities_;
 };
 
 }  // namespace

@@ -11,6 +11,14 @@
 
 namespace rigor::mujoco {
 
+/// Where MuJoCo's documentation shows what its joints and constraints lack.
+inline constexpr const char* kWholeRotation =
+    "MuJoCo XML reference, joint/range and joint/stiffness: those of a ball are of its whole rotation";
+inline constexpr const char* kEqualities =
+    "MuJoCo XML reference, equality: connect, weld, joint and tendon; none of a slider, of limits or of "
+    "motors, and no "
+    "other constraint has a flag `active`";
+
 std::string bodyName(int body);
 std::string geomName(int body, int shape);
 std::string jointTag(int joint, const char* what = "");

@@ -35,11 +35,6 @@ void findIds(const adapter::Scenario& scenario, Model& out) {
             out.shapes[geom] = {body, static_cast<int>(i)};
         }
     }
-    for (Motor& motor : out.motors) {
-        // The text numbers motors in its order, which is that of the model.
-        const int joint = model.actuator_trnid[2 * motor.actuator];
-        motor.dof = model.jnt_dofadr[joint];
-    }
 }
 
 void fillHeightFields(const adapter::Scenario& scenario, Model& out) {
@@ -68,9 +63,7 @@ void setBodies(const adapter::Scenario& scenario, bool planar, double dt, bool e
         const Link& link = out.forest.links[b];
         toMujoco(link.moments, model.body_inertia + 3 * out.bodies[b]);
         if (body.linearVelocityKept == 1.0 && body.angularVelocityKept == 1.0) continue;
-        if (link.joint != kNone)
-            throw adapter::notInAdapter("mujoco", "damping of a body that hangs on a joint",
-                                        "body '" + body.name + "'");
+        if (link.joint != kNone) continue;  // a force (world.cpp)
         const double linear = dampingFor(body.linearVelocityKept, dt, explicitly);
         const double angular = dampingFor(body.angularVelocityKept, dt, explicitly);
         mjtNum* damping = model.dof_damping + model.body_dofadr[out.bodies[b]];

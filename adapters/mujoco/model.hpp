@@ -4,6 +4,7 @@
 // A scenario as a compiled mjModel, with the tables that lead from one to the other.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,7 @@ struct ModelSettings {
 
 /// A motor of a joint coordinate: an actuator whose force the adapter sets at the start of each step.
 struct Motor {
-    int joint = kNone;  ///< scenario joint
-    int actuator = 0;   ///< index in the model
-    int dof = 0;
+    int actuator = 0;       ///< index in the model
     double speed = 0.0;     ///< [u/s]
     double maxForce = 0.0;  ///< [N] or [N m]
 };
@@ -40,6 +39,8 @@ struct Model {
     std::vector<adapter::PairTable::ShapeRef> shapes;  ///< scenario shapes by geom
     std::vector<std::vector<int>> geoms;               ///< geoms by scenario body and shape; -1: none
     std::vector<Motor> motors;
+    std::map<int, std::vector<int>> equalities;  ///< equality constraints by the scenario joint they hold
+    int equalityCount = 0;
     Surface common;         ///< surface of geoms that no explicit pair names
     int explicitPairs = 0;  ///< pairs of geoms whose surface is another
 };
@@ -47,6 +48,9 @@ struct Model {
 /// `scenario` is three-dimensional and has springs by stiffness; `planar` if it was lifted. Throws Unsupported.
 Model buildModel(const adapter::Scenario& scenario, const adapter::PairTable& pairs, bool planar, double dt,
                  const ModelSettings& settings);
+
+/// Distance of the two points of a hinge that is held by two `connect` [m].
+inline constexpr double kConnectArm = 0.1;
 
 /// The mass of kinematic bodies in MuJoCo, which moves them by its forces: so large that nothing else does [kg].
 inline constexpr double kKinematicMass = 1e9;

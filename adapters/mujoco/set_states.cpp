@@ -89,8 +89,9 @@ void MujocoWorld::placeLink(int body, std::span<const BodyState> states) {
                 v[0] = dot(turn, axis);
                 break;
             default: {
-                // A reversed wheel slides along its own axis, everything else along one of its parent's.
-                const bool own = link.reversed && joint.type == JointType::Wheel;
+                // A reversed wheel or six_dof slides along its own axis, everything else along one of its parent's.
+                const bool own =
+                    link.reversed && (joint.type == JointType::Wheel || joint.type == JointType::SixDof);
                 const Vec3 along = rotate(own ? Quat{} : link.rest.orientation, axis);
                 const Vec3 moved = own ? anchor - inverse(relative) * (link.rest * anchor)
                                        : relative * anchor - link.rest * anchor;

@@ -76,7 +76,7 @@ class Search {
         for (const bool late : {false, true})
             for (std::size_t j = 0; j < scenario_.joints.size(); ++j) {
                 const Joint& joint = scenario_.joints[j];
-                if (!isLink(joint) || canCloseLoop(joint) != late) continue;
+                if (!isLink(joint) || canBreak(joint) || canCloseLoop(joint) != late) continue;
                 const std::size_t a = groupOf(joint.bodyA), b = groupOf(joint.bodyB);
                 if (a == b) continue;
                 group[a] = b;
@@ -128,7 +128,19 @@ bool canCloseLoop(const Joint& joint) {
     const scenario::JointAxis& axis = joint.axes[0];
     const bool plain = !axis.hasSpring() && !axis.hasMotor() && axis.mode != scenario::AxisMode::Limited;
     const bool turns = joint.type == JointType::Ball || joint.type == JointType::Hinge;
+    if (turns && axis.mode == scenario::AxisMode::Locked) return false;
     return joint.type == JointType::Fixed || (turns && plain);
+}
+
+bool canBreak(const Joint& joint) {
+    return joint.breakForce < 1e299 || joint.breakTorque < 1e299;
+}
+
+double swingLimit(const Joint& joint) {
+    const bool cone = joint.type == JointType::ConeTwist;
+    const scenario::JointAxis& swing = joint.axes[cone ? 1 : 0];
+    const bool bounded = (cone || joint.type == JointType::Ball) && swing.mode == scenario::AxisMode::Limited;
+    return bounded ? swing.upper : 1e300;
 }
 
 Forest spanningForest(const adapter::Scenario& scenario, bool planar) {
@@ -142,6 +154,17 @@ Vec3 anchorIn(const Link& link, const Joint& joint) {
 Vec3 axisIn(const Link& link, const Joint& joint) {
     const Vec3 axis = rotateInverse(link.frame.orientation, link.reversed ? joint.axisA : joint.axisB);
     return link.reversed ? -axis : axis;
+}
+
+std::array<Vec3, 3> sixDofAxesIn(const Link& link, const adapter::Scenario& scenario, const Joint& joint) {
+    const auto turnOf = [&](int body) {
+        return body == kNone ? Quat{} : scenario.bodies[body].pose.orientation;
+    };
+    const Quat own = turnOf(link.reversed ? joint.bodyA : joint.bodyB) * link.frame.orientation;
+    const Vec3 x = rotate(turnOf(joint.bodyA), joint.axisA), y = rotate(turnOf(joint.bodyA), joint.normalA);
+    const double sign = link.reversed ? -1.0 : 1.0;
+    return {sign * rotateInverse(own, x), sign * rotateInverse(own, y),
+            sign * rotateInverse(own, cross(x, y))};
 }
 
 Vec3 spinIn(const Link& link, const adapter::Scenario& scenario, const Joint& joint) {

@@ -5,6 +5,7 @@
 // joints that are left close loops.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "adapters/mujoco/convert.hpp"
@@ -37,11 +38,18 @@ Forest spanningForest(const adapter::Scenario& scenario, bool planar);
 
 /// True where an equality constraint of MuJoCo holds all that a joint does, so that it may close a loop.
 bool canCloseLoop(const scenario::Joint& joint);
+/// True for joints with a strength. They are equalities, which alone can be switched off.
+bool canBreak(const scenario::Joint& joint);
+/// Greatest angle between the axes of A and B [rad]; beyond pi where nothing bounds it.
+double swingLimit(const scenario::Joint& joint);
 
 /// Anchor and axis of a joint as the child of a link has them, in the link's frame. The axis points so that its
 /// coordinate is the scenario's.
 Vec3 anchorIn(const Link& link, const scenario::Joint& joint);
 Vec3 axisIn(const Link& link, const scenario::Joint& joint);
+/// The three axes of a six_dof. `scenario` gives the initial poses.
+std::array<Vec3, 3> sixDofAxesIn(const Link& link, const adapter::Scenario& scenario,
+                                 const scenario::Joint& joint);
 /// Axis of a wheel's pin. `scenario` gives the initial poses.
 Vec3 spinIn(const Link& link, const adapter::Scenario& scenario, const scenario::Joint& joint);
 

@@ -109,6 +109,26 @@ void MujocoWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
     toMujoco(t, applied + 3);
 }
 
+/// Damping of bodies that hang on joints is a force; that of free ones is their joint's (model.cpp).
+void MujocoWorld::addDamping() {
+    for (std::size_t b = 0; b < scenario_.bodies.size(); ++b) {
+        const Body& body = scenario_.bodies[b];
+        const Link& link = model_.forest.links[b];
+        const bool damped = body.linearVelocityKept != 1.0 || body.angularVelocityKept != 1.0;
+        if (body.type != BodyType::Dynamic || link.joint == kNone || !damped) continue;
+        const adapter::BodyState state = stateOf(static_cast<int>(b));
+        const Quat axes = state.orientation * link.frame.orientation;
+        const Vec3 turn = rotateInverse(axes, state.angularVelocity), &moments = link.moments;
+        const Vec3 momentum = rotate(axes, Vec3{moments.x * turn.x, moments.y * turn.y, moments.z * turn.z});
+        // What a step without anything else leaves is kept^dt of the velocity.
+        const double linear = (std::pow(body.linearVelocityKept, dt_) - 1.0) / dt_;
+        const double angular = (std::pow(body.angularVelocityKept, dt_) - 1.0) / dt_;
+        mjtNum* applied = data_->xfrc_applied + 6 * model_.bodies[b];
+        toMujoco(fromMujoco(applied) + linear * body.massProperties.mass * state.velocity, applied);
+        toMujoco(fromMujoco(applied + 3) + angular * momentum, applied + 3);
+    }
+}
+
 /// Gravity of single bodies is a force, for MuJoCo 2.2.2 has none; kinematic bodies have none at all.
 void MujocoWorld::prepareForces() {
     std::copy(forces_.begin(), forces_.end(), data_->xfrc_applied);
@@ -129,14 +149,18 @@ void MujocoWorld::prepareForces() {
 /// its implicit integrator counts a servo's damping where its force is bounded, too, and halves the acceleration.
 void MujocoWorld::setMotors() {
     const mjModel& model = *model_.model;
+    mj_tendon(&model, data_.get());
+    mj_transmission(&model, data_.get());
     mj_crb(&model, data_.get());
     mj_factorM(&model, data_.get());
-    std::vector<mjtNum> unit(model.nv), answer(model.nv);
+    std::vector<mjtNum> answer(model.nv);
     for (const Motor& motor : model_.motors) {
-        std::fill(unit.begin(), unit.end(), 0.0);
-        unit[motor.dof] = 1.0;
-        mj_solveM(&model, data_.get(), answer.data(), unit.data(), 1);
-        const double wanted = (motor.speed - data_->qvel[motor.dof]) / (answer[motor.dof] * dt_);
+        // What a unit of the actuator's force does to the coordinates, and the speed that it measures.
+        const mjtNum* moment =
+            data_->actuator_moment + static_cast<std::ptrdiff_t>(motor.actuator) * model.nv;
+        mj_solveM(&model, data_.get(), answer.data(), moment, 1);
+        const double mobility = mju_dot(moment, answer.data(), model.nv);
+        const double wanted = (motor.speed - mju_dot(moment, data_->qvel, model.nv)) / (mobility * dt_);
         data_->ctrl[motor.actuator] = std::clamp(wanted, -motor.maxForce, motor.maxForce);
     }
 }
@@ -147,6 +171,7 @@ void MujocoWorld::step() {
     const State before = keepState();
     for (;;) {
         prepareForces();
+        addDamping();
         bool stackFull = false;
         try {
             mj_step(model_.model.get(), data_.get());
@@ -161,6 +186,7 @@ void MujocoWorld::step() {
     for (const int warning : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC})
         if (data_->warning[warning].number > 0) reset_ = true;
     std::fill(forces_.begin(), forces_.end(), 0.0);
+    if (!reset_) breakJoints();
     moveKinematic(before);
     updatePoses();
     ++steps_;
@@ -210,11 +236,12 @@ MujocoWorld::State MujocoWorld::keepState() const {
     put(data_->qacc_warmstart, m.nv);
     put(&data_->time, 1);
     put(forces_.data(), forces_.size());
+    for (int i = 0; i < m.neq; ++i) out.push_back(m.eq_active[i]);
     return state;
 }
 
 void MujocoWorld::putState(const State& state) {
-    const mjModel& m = *model_.model;
+    mjModel& m = *model_.model;
     const mjtNum* from = state.numbers.data();
     const auto take = [&](mjtNum* to, std::size_t count) {
         std::copy_n(from, count, to);
@@ -225,6 +252,7 @@ void MujocoWorld::putState(const State& state) {
     take(data_->qacc_warmstart, m.nv);
     take(&data_->time, 1);
     take(forces_.data(), forces_.size());
+    for (int i = 0; i < m.neq; ++i) m.eq_active[i] = static_cast<mjtByte>(from[i]);
 }
 
 void MujocoWorld::save(std::vector<unsigned char>& bytes) const {
@@ -239,6 +267,7 @@ bool MujocoWorld::restore(const std::vector<unsigned char>& bytes) {
     std::memcpy(state.numbers.data(), bytes.data(), bytes.size());
     putState(state);
     reset_ = false;
+    updatePairs();
     for (auto& warning : data_->warning) warning.number = 0;
     updatePoses();
     return true;

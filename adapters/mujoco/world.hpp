@@ -28,6 +28,7 @@ class MujocoWorld final : public adapter::World, public adapter::Snapshots, publ
     std::vector<adapter::LedgerEntry> ledger() const override;
     adapter::StepCounters counters() const override;
     adapter::Scheme scheme() const override;
+    bool jointHolds(int joint) const override;
     adapter::Snapshots* snapshots() override { return this; }
     void save(std::vector<unsigned char>& bytes) const override;
     bool restore(const std::vector<unsigned char>& bytes) override;
@@ -38,7 +39,15 @@ class MujocoWorld final : public adapter::World, public adapter::Snapshots, publ
         std::vector<mjtNum> numbers;
     };
 
+    struct Reaction {
+        double force = 0.0, torque = 0.0;  ///< [N], [N m]
+    };
+
     ModelSettings modelSettings() const;
+    Reaction reactionOf(int joint) const;
+    void breakJoints();
+    void updatePairs();
+    void addDamping();
     void makeData(int contacts, int rows);
     void grow();
     void prepareForces();
