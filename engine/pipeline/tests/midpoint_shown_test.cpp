@@ -185,8 +185,7 @@ TYPED_TEST(MidpointShown, ABoardThatTipsKeepsItsEnergy) {
             const typename S::Vec u = world.velocity(board) + cross(world.angularVelocity(board), arm);
             ASSERT_NEAR(u[1], 0, 0.1 * lag + 5e-6) << i;
             const typename S::Vec local = rotateInverse<double>(end.q, arm);
-            const double second =
-                kFrame * kFrame * 0.25 * (0.5 * w * w + 2);  // first order: kFrame / 2 * 0.25 * w
+            const double second = kFrame * kFrame * 0.25 * (w * w + 2);  // first order: kFrame / 2 * 0.25 * w
             ASSERT_NEAR(std::abs(local[0]), 0.05, second) << i;
             ASSERT_NEAR(local[1], -0.25, second) << i;
             ASSERT_NEAR(contact.pointB[1], contact.separation, second) << i;
