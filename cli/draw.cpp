@@ -16,7 +16,7 @@
 #include "cli/command.hpp"
 #include "cli/guarded.hpp"
 #include "cli/png_picture.hpp"
-#include "cli/scene_lines.hpp"
+#include "cli/view/scene_lines.hpp"
 #include "engine/embedding/svg_lines.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/runner/judge.hpp"
@@ -36,7 +36,7 @@ struct DrawArguments {
     int width = 800;
 };
 
-/// What is to be drawn, and the scenario that it refers to.
+/// Scene to be drawn, and the scenario that it refers to.
 struct Drawn {
     scenario::Scenario scenario;
     Scene scene;

@@ -432,7 +432,7 @@ TEST_P(Joints, AWheelHasASpringAlongItsAxisAndAMotorAboutItsPin) {
         s.joints.push_back(joint);
         std::string lacking;
         const auto world = buildIfOffered(s, lacking);
-        if (!world) continue;  // with a pin that is not normal to the strut
+        if (!world) continue;  // the pin is not normal to the strut
         const auto spin = [&] { return dot(stateOf(*world, s, b).angularVelocity, pin); };
         double travel = 0.0, aside = 0.0, turned = 0.0;
         for (int i = 1; i <= 480; ++i) {

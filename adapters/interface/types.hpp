@@ -46,8 +46,8 @@ struct ContactPoint {
 
 /// The poses that the contacts of a step lie at, and that its laws of contact are about.
 enum class ContactInstant {
-    StepStart,  ///< those at which the step began: contacts are found there
-    StepEnd  ///< those at its end: bodies move before contacts are found, or contacts of its middle are moved on
+    StepStart,  ///< contacts are found at the poses at which the step began
+    StepEnd     ///< bodies move before contacts are found, or contacts of the middle are moved on to the end
 };
 
 /// Degree to which a requested setting was realised.

@@ -11,7 +11,7 @@
 
 namespace rigor::mujoco {
 
-/// Where MuJoCo's documentation shows what its joints and constraints lack.
+/// Pages of MuJoCo's documentation that show what its joints and constraints lack.
 inline constexpr const char* kWholeRotation =
     "MuJoCo XML reference, joint/range and joint/stiffness: those of a ball are of its whole rotation";
 inline constexpr const char* kEqualities =

@@ -120,7 +120,7 @@ void MujocoWorld::addDamping() {
         const Quat axes = state.orientation * link.frame.orientation;
         const Vec3 turn = rotateInverse(axes, state.angularVelocity), &moments = link.moments;
         const Vec3 momentum = rotate(axes, Vec3{moments.x * turn.x, moments.y * turn.y, moments.z * turn.z});
-        // What a step without anything else leaves is kept^dt of the velocity.
+        // A step without anything else leaves kept^dt of the velocity.
         const double linear = (std::pow(body.linearVelocityKept, dt_) - 1.0) / dt_;
         const double angular = (std::pow(body.angularVelocityKept, dt_) - 1.0) / dt_;
         mjtNum* applied = data_->xfrc_applied + 6 * model_.bodies[b];
@@ -155,7 +155,7 @@ void MujocoWorld::setMotors() {
     mj_factorM(&model, data_.get());
     std::vector<mjtNum> answer(model.nv);
     for (const Motor& motor : model_.motors) {
-        // What a unit of the actuator's force does to the coordinates, and the speed that it measures.
+        // Effect of a unit of the actuator's force on the coordinates, and the speed that it measures.
         const mjtNum* moment =
             data_->actuator_moment + static_cast<std::ptrdiff_t>(motor.actuator) * model.nv;
         mj_solveM(&model, data_.get(), answer.data(), moment, 1);

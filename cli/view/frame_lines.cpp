@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/scene_lines.hpp"
+#include "cli/view/scene_lines.hpp"
 
 namespace rigor::view {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cli/scene_lines.hpp"
+#include "cli/view/scene_lines.hpp"
 #include "cli/view/frame_lines.hpp"
 #include "reports/page/web_assets.hpp"
 #include "scenarios/loader/loader.hpp"

@@ -39,7 +39,7 @@ class LiveSite final : public Site {
     std::filesystem::path binary_;
     std::atomic<int> waiting_{0};
     std::mutex drawing_;
-    std::map<int, scenario::Scenario> scenarios_;  ///< of the instances that lines have been drawn of
+    std::map<int, scenario::Scenario> scenarios_;  ///< scenarios of instances whose lines have been drawn
     std::mutex describing_;
     std::string engines_;  ///< once they have been queried
 };

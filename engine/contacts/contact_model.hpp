@@ -98,7 +98,7 @@ class ContactModel {
     /// The landings of the sub-step, in the order of contacts.
     virtual std::span<const LandingPoint<Real>> landings() const { return {}; }
 
-    /// What the rows of contact `index` of the list lag by (row_lag.hpp); none in steps whose rows are not those of a midpoint.
+    /// Lags of the rows of contact `index` of the list (row_lag.hpp); none in steps whose rows are not those of a midpoint.
     virtual const RowLags<S>* lagsOf(std::size_t index) const {
         (void)index;
         return nullptr;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a world shows of the contacts of a step from midpoint to midpoint. They were found in the middle of the step, and
+// Contacts that a world shows of a step from midpoint to midpoint. They were found in the middle of the step, and
 // their laws hold for the velocities at its end: they are shown there, at the poses that the world shows, to second order
 // in the step. Arms and normals go on from the middle as they came to it (contacts/row_lag.hpp).
 #include "engine/narrowphase/distance.hpp"

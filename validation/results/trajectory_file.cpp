@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 4;  ///< of files whose contacts stand at the ends of their steps
+constexpr int kFormat = 4;  ///< format of files whose contacts stand at the ends of their steps
 constexpr int kFormatOfStarts = 3;
 constexpr int kLastWithoutInstants = 2;
 constexpr const char* kScene = "_";  ///< dataset name of a series without a subject

@@ -187,7 +187,7 @@ TEST_F(View, FramesComeWithTheirLines) {
                 }
             }
             if (kind != "impulse") continue;
-            const std::size_t c = 3 * (count["normal"] - 1);  // that of the normal before
+            const std::size_t c = 3 * (count["normal"] - 1);  // index of the normal before
             for (std::size_t axis = 0; axis < 2; ++axis)
                 EXPECT_NEAR(ends[6 * i + 3 + axis] - ends[6 * i + axis],
                             impulse[c / 3] * normal[c + axis] + friction[c + axis], 1e-9);

@@ -33,7 +33,7 @@ struct AssembledContact {
     std::size_t first = 0;  ///< the first of them: normal + 1; other rows for rolling and torsional friction
     double mu = 0, muStatic = 0;  ///< muStatic >= mu
     double applied = 0;           ///< impulse applied on top of the normal's impulse in the limit of friction
-    bool moment = false;          ///< of a Moment block, which has no normal of its own
+    bool moment = false;          ///< the block is a Moment, which has no normal of its own
 };
 
 class AssembledProblem {

@@ -95,7 +95,7 @@ async function show(first: number): Promise<void> {
     scene = readScene((await api.scene(first)).scenario);
     picture?.dispose();
     picture = new Picture(stage, scene, drag);
-    Object.assign(stage, { picture }); // for tests and the browser's tools
+    Object.assign(stage, { picture }); // tests and the browser's tools find it there
   } catch (error) {
     stage.replaceChildren(
       el(

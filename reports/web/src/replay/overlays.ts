@@ -120,7 +120,7 @@ export class Overlays {
     }
   }
 
-  /** How lines of a kind are drawn; null: its layer is off. `scale` [m for 1 m, 1 m/s, 1 N s]. */
+  /** Style of the lines of a kind; null: its layer is off. `scale` [m for 1 m, 1 m/s, 1 N s]. */
   #styleOf(kind: string, options: ViewOptions, theme: Theme, scales: ArrowScales): LineStyle | null {
     const layer = layerOfKind[kind];
     if (!layer || !options.layers[layer]) return null;

@@ -22,9 +22,9 @@ struct Scene {
     const scenario::Scenario* scenario = nullptr;  ///< has to outlive the scene
     std::vector<adapter::BodyState> states;
     std::vector<adapter::ContactPoint> contacts;  ///< at the places where they are to be drawn
-    std::vector<bool> jointHolds;                 ///< of each joint; empty: all hold
+    std::vector<bool> jointHolds;                 ///< joints that hold; empty: all
     std::vector<adapter::ShapeBox>
-        boxes;  ///< those that the engine compared; empty: the least ones are drawn
+        boxes;  ///< boxes that the engine compared; empty: the least ones are drawn
     /// Bodies of each island as the engine has them; empty: islands are those of the contacts and joints.
     std::vector<std::vector<int>> islands;
     double time = 0.0;  ///< [s]

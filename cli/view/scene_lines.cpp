@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "cli/scene_lines.hpp"
+#include "cli/view/scene_lines.hpp"
 
 #include <algorithm>
 #include <cmath>
