@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cli/view/scene_lines.hpp"
 #include "cli/view/frame_lines.hpp"
+#include "cli/view/scene_lines.hpp"
 #include "reports/page/web_assets.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/runner/describe.hpp"
