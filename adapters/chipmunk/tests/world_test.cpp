@@ -30,8 +30,8 @@ TEST(ChipmunkWorld, PositionsFirstAreExplicitEulerAndLastSymplectic) {
         simulation.steps(100);
         const double squares = last ? 100.0 * 101.0 : 100.0 * 99.0;
         EXPECT_NEAR(simulation.state(b).position.y, -0.5 * g * dt * dt * squares, 1e-12);
-        EXPECT_EQ(simulation.ledgerLine("contact_instant")->realisation,
-                  last ? adapter::Realisation::Exact : adapter::Realisation::Approximate);
+        EXPECT_EQ(simulation.world->contactInstant(),
+                  last ? adapter::ContactInstant::StepStart : adapter::ContactInstant::StepEnd);
     }
 }
 

@@ -165,6 +165,7 @@ TYPED_TEST(DebugLinesTest, ADistanceJointIsALineBetweenItsAnchors) {
     rope.type = JointType::Distance;
     rope.bodyB = addBall<S>(world, 5, 5, 0.25, 1, 0);
     rope.anchorA = at<S>(5, 8);
+    rope.length = 3;
     world.addJoint(rope);
     Collected<S> sink;
     drawWorld<S>(world, {}, sink);
