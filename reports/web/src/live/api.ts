@@ -64,7 +64,7 @@ export interface FrameHead {
   step: number;
   time: number;
   counters: Record<string, number>;
-  contacts_at_step_end: boolean; // contacts belong to the poses of the frame; else to those at which its step began
+  contacts_at_step_end?: boolean; // contacts belong to the poses of the frame; else to those at which its step began
   stage: StageState;
   has_stages: boolean; // the arrays of stages are there
   step_seconds?: number;
