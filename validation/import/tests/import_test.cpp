@@ -222,8 +222,7 @@ TEST(Broken, FoldersAreRefused) {
     }
     writeText(folder / "toss_001.csv", tossText(lines));
     writeText(folder / "toss_005.csv", tossText(turned));
-    EXPECT_THAT(message(folder),
-                HasSubstr("toss_005.csv: found the same recording as toss_001.csv"));
+    EXPECT_THAT(message(folder), HasSubstr("toss_005.csv: found the same recording as toss_001.csv"));
     const auto names = freshFolder("names");
     writeText(names / "toss_1.csv", tossText(lines));
     writeText(names / "toss_01.csv", tossText(turned));
