@@ -35,11 +35,27 @@ constexpr const char* kPlainLibrary =
     "FMA4,"
     "-FMA_Usable,-FMA4_Usable,-BMI1,-BMI2,-LZCNT,-MOVBE,-RTM,-ERMS,-FSRM,-AVX_Fast_Unaligned_Load,-XSAVEC";
 
+/// How callgrind is called for the counted work whose name begins with `prefix`, `options` before it.
+std::string callgrind(const std::string& options, const std::string& prefix, const std::string& more = "") {
+    return "env -i PATH=\"$PATH\" LC_ALL=C " + std::string(kPlainLibrary) + " " + more +
+           " valgrind --tool=callgrind " + options + " '" + kProgram.string() + "' " + prefix;
+}
+
+/// Valgrind decodes only what the processor it runs on has. Highway's library reads the clock by RDTSCP when
+/// it is loaded, and some virtual processors do not offer that instruction.
+bool valgrindDecodesTheProgram() {
+    const std::string none = callgrind("--callgrind-out-file=/dev/null", "no_such_work");
+    const std::string refused = none + " 2>&1 | grep -q 'Unrecognised instruction'";
+    return std::system(refused.c_str()) != 0;
+}
+
 std::string whyNot() {
     if (std::string(RIGOR_BUILD_KIND) != "Release")
         return "counts are those of Release builds without sanitizers";
     if (std::system("command -v valgrind >/dev/null 2>&1") != 0)
         return "valgrind is not installed (Debian: apt-get install valgrind)";
+    if (!valgrindDecodesTheProgram())
+        return "valgrind does not decode an instruction of this processor's start of the program";
     return {};
 }
 
@@ -63,11 +79,11 @@ Counts count(const std::string& prefix, const std::string& more = "") {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     const auto in = [&](const char* name) { return (folder / name).string(); };
-    const std::string command = "env -i PATH=\"$PATH\" LC_ALL=C " + std::string(kPlainLibrary) + " " + more +
-                                " valgrind --tool=callgrind --toggle-collect=rigorCountedWork" +
-                                " --dump-after=rigorCountedWork --callgrind-out-file='" + in("dump") + "' '" +
-                                kProgram.string() + "' " + prefix + " >'" + in("names") + "' 2>'" +
-                                in("log") + "'";
+    const std::string command =
+        callgrind("--toggle-collect=rigorCountedWork --dump-after=rigorCountedWork --callgrind-out-file='" +
+                      in("dump") + "'",
+                  prefix, more) +
+        " >'" + in("names") + "' 2>'" + in("log") + "'";
     Counts counts;
     const bool ran = std::system(command.c_str()) == 0;
     const auto names = lines(in("names"));
