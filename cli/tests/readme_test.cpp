@@ -6,6 +6,8 @@
 // `./rigor` stands for the program here; `./rigor test` is what runs this test, so it is not run again.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -38,7 +40,11 @@ TEST(Readme, EveryCommandRuns) {
         // repo.
         if (std::getenv("RIGOR_DATA") == nullptr && command.line.find("toss") != std::string::npos) continue;
         command.line.starts_with("./rigor validate") ? ++validates : ++others;
+        const auto start = std::chrono::steady_clock::now();
         const Ended ended = runShownCommand(folder, command.line);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        std::printf("%6.1f s  %s\n", seconds.count(), command.line.c_str());
+        std::fflush(stdout);
         EXPECT_TRUE(ended.well) << command.line << "\n" << ended.output;
     }
     EXPECT_EQ(tests, 1);
