@@ -6,6 +6,7 @@
 
 #include "engine/embedding/debug_lines.hpp"
 #include "engine/embedding/frame_stepper.hpp"
+#include "engine/embedding/handle_keys.hpp"
 #include "engine/embedding/solid_body.hpp"
 #include "engine/embedding/svg_lines.hpp"
 #include "engine/embedding/world_batch.hpp"
