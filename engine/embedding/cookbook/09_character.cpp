@@ -22,13 +22,16 @@ int main() {
     place.type = BodyType::Dynamic;
     place.pose.p = {-3, 1.5, 0};
     const BodyId character = addSolid<S>(world, {{Capsule<S>{0.3, 0.6}, 900, kFrictionless}}, place);
+    JointDef<S> upright;  // it may move in all directions and turn in none
+    upright.type = JointType::SixDof;
+    upright.bodyB = character;  // bodyA is the world
+    upright.anchorA = place.pose.p;
+    for (int k = 0; k < 6; ++k) upright.axes[k].mode = k < 3 ? AxisMode::Free : AxisMode::Locked;
+    world.addJoint(upright);
     for (int i = 0; i < 360; ++i) {
         const double falling = world.velocity(character).y();
         const bool started = i >= 60;  // it has landed by then
         world.setVelocity(character, {started ? 1.2 : 0.0, falling, 0}, {0, 0, 0});
-        Pose<S> upright = world.pose(character);
-        upright.q.setIdentity();
-        world.setPose(character, upright);
         world.step(1.0 / 60);
     }
     const auto p = world.pose(character).p;
