@@ -90,7 +90,9 @@ Step<S>::Step(WorldParts<S>& world, StepState<S>& state, IslandSize islands)
 template <class S>
 void Step<S>::begin(Real h) {
     if (state_.active) throw EngineError("step_in_progress", "the last step has phases left to run");
-    if (!(h > 0) || !std::isfinite(h)) throw EngineError("time_step", "a step must be positive and finite");
+    if (!(h > 0) || !std::isfinite(h))
+        throw EngineError("time_step",
+                          "found " + std::to_string(h) + ", expected a finite number above 0 [s]");
     const double now = world_.clock.time;
     wakeByForces(world_, now, now + static_cast<double>(h));
     result_ = {};

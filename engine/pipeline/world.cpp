@@ -103,12 +103,13 @@ JointId World<S>::addJoint(const JointDef<S>& def) {
     requireBetweenSteps();
     const std::uint32_t a = parts_.bodies.denseOrWorld(def.bodyA), b = parts_.bodies.denseOrWorld(def.bodyB);
     require(a != b, "joint_bodies", "a joint needs two bodies");
+    const BodyArrays<S>& bodies = parts_.bodies.arrays();
+    const auto isDynamic = [&](std::uint32_t i) { return bodies.constants[i].type == BodyType::Dynamic; };
+    require(isDynamic(a) || isDynamic(b), "joint_bodies", "a joint needs a dynamic body");
     islands();  // finds the islands of the last step
+    const JointId id = parts_.joints.add(def, bodies, a, b);
     parts_.wakeIslandOf(a);
     parts_.wakeIslandOf(b);
-    const BodyArrays<S>& bodies = parts_.bodies.arrays();
-    require(bodies.invMass[a] > 0 || bodies.invMass[b] > 0, "joint_bodies", "a joint needs a dynamic body");
-    const JointId id = parts_.joints.add(def, bodies, a, b);
     parts_.jointsChanged();
     return id;
 }

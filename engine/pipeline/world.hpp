@@ -29,7 +29,7 @@ class World {
     /// Throws EngineError for unknown algorithm names and for numbers out of range.
     explicit World(const WorldDef<S>& def);
 
-    // --- building. Each throws EngineError for values out of range.
+    // --- building. Each throws EngineError for values out of range and then leaves the world as it was.
     BodyId addBody(const BodyDef<S>& def);
     /// Removes the body with its shapes, joints and forces.
     void removeBody(BodyId body);
@@ -47,6 +47,8 @@ class World {
     std::uint32_t addMaterial(Real friction, Real restitution, Real staticFriction = 0);
     /// The same with rolling and torsional friction. Throws EngineError "material_moments" where these are negative.
     std::uint32_t addMaterial(const PairCoefficients<S>& own);
+    /// Number of materials, with those that each world has.
+    std::size_t materialCount() const { return parts_.contacts.materials().size(); }
     /// Coefficients of two materials instead of what WorldDef's combine rules make of them (by default
     /// sqrt(mu_a mu_b) and min(e_a, e_b)).
     void setPair(std::uint32_t materialA, std::uint32_t materialB, const PairCoefficients<S>& coefficients);

@@ -23,7 +23,9 @@ WorldDef<S> WorldDef<S>::preset(std::string_view name) {
         return def;                    \
     }
 #include "engine/state/presets.def"
-    throw EngineError("preset", "no preset has the name " + std::string(name));
+    std::string known;
+    for (const PresetInfo& one : presets()) known += (known.empty() ? "" : ", ") + one.name;
+    throw EngineError("preset", "found \"" + std::string(name) + "\", expected one of: " + known);
 }
 
 const std::vector<PresetInfo>& presets() {

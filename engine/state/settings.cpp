@@ -3,6 +3,7 @@
 #include "engine/state/settings.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include "engine/core/error.hpp"
 
@@ -10,8 +11,12 @@ namespace rigor::engine {
 namespace {
 
 /// "min..max" of numbers as they are written in settings.def.
-void requireWithin(bool within, const char* key, const char* min, const char* max) {
-    if (!within) throw EngineError(key, std::string(key) + " must be in " + min + ".." + max);
+template <class T>
+void requireWithin(T value, bool within, const char* key, const char* min, const char* max) {
+    if (within) return;
+    std::ostringstream message;
+    message << "found " << value << ", expected a number in " << min << ".." << max;
+    throw EngineError(key, message.str());
 }
 
 /// False for NaN. The bounds are rounded to the precision of the value.
@@ -45,9 +50,9 @@ const SettingInfo& setting(const std::string& key) {
 template <class S>
 void checkSettings(const WorldDef<S>& def) {
 #define INTEGER(member, key, byDefault, min, max, help) \
-    requireWithin(isWithin(def.member, min, max), key, #min, #max);
+    requireWithin(def.member, isWithin(def.member, min, max), key, #min, #max);
 #define REAL(member, key, byDefault, min, max, help) \
-    requireWithin(isWithin(def.member, min, max), key, #min, #max);
+    requireWithin(def.member, isWithin(def.member, min, max), key, #min, #max);
 #include "engine/state/settings.def"
     if (def.pyramidDirections % 2 != 0)
         throw EngineError("pyramid_directions", "pyramid_directions must be even");
