@@ -26,7 +26,7 @@ TEST(HandleKeys, EachHandleHasItsOwnEntry) {
     EXPECT_LT((BodyId{7, 0}), (BodyId{7, 1}));
 }
 
-/// What took the place of a removed body is not found by the old handle.
+/// A body that takes the place of a removed one is not found by the old handle.
 TEST(HandleKeys, AnEntryIsNotFoundForWhatTookItsPlace) {
     IdTable<BodyTag> table;
     std::unordered_map<BodyId, int> kept;
