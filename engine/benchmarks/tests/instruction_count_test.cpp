@@ -35,7 +35,7 @@ constexpr const char* kPlainLibrary =
     "FMA4,"
     "-FMA_Usable,-FMA4_Usable,-BMI1,-BMI2,-LZCNT,-MOVBE,-RTM,-ERMS,-FSRM,-AVX_Fast_Unaligned_Load,-XSAVEC";
 
-/// How callgrind is called for the counted work whose name begins with `prefix`, `options` before it.
+/// Command line of callgrind for the counted work whose name begins with `prefix`, `options` before it.
 std::string callgrind(const std::string& options, const std::string& prefix, const std::string& more = "") {
     return "env -i PATH=\"$PATH\" LC_ALL=C " + std::string(kPlainLibrary) + " " + more +
            " valgrind --tool=callgrind " + options + " '" + kProgram.string() + "' " + prefix;
