@@ -54,6 +54,9 @@ class LoadedEngine {
     const Engine& operator*() const { return *engine_; }
     const Engine* operator->() const { return engine_.get(); }
 
+    /// Changes of the floating-point environment by loading it, which are undone; "" if there were none.
+    const std::string& environmentChanges() const { return environmentChanges_; }
+
     /// A world of its dynamics, which must be there, with every answer checked (checked_world.hpp).
     std::unique_ptr<World> build(const Scenario& scenario, double dt, const Settings& settings) const;
 
@@ -62,8 +65,8 @@ class LoadedEngine {
 
     void* handle_ = nullptr;
     std::unique_ptr<Engine> engine_;
-    FloatEnvironment environment_;    ///< environment of the process before it was loaded
-    std::string environmentChanges_;  ///< changes by loading it, which are undone
+    FloatEnvironment environment_;  ///< environment of the process before it was loaded
+    std::string environmentChanges_;
 };
 
 /// Loads the module of the spec into this process.

@@ -89,7 +89,11 @@ void AuditQueue::add(const std::string& scenario, const std::string& scenarioTex
                        for (const auto& auditor : auditors_) startQueries(batch, auditor, "");
                        finishOne(batch);
                    },
-                   true});
+                   true,
+                   0,
+                   0,
+                   "",
+                   kNoModule});
 }
 
 void AuditQueue::startQueries(const std::shared_ptr<Batch>& batch, const std::string& auditor,
@@ -110,7 +114,11 @@ void AuditQueue::startQueries(const std::shared_ptr<Batch>& batch, const std::st
                    [this, batch, auditor, onlyCase, answer](const ProcessResult& result) {
                        answered(batch, auditor, onlyCase, result, answer);
                    },
-                   true});
+                   true,
+                   0,
+                   0,
+                   "",
+                   servedModule(adapter::parseSpec(auditor))});
 }
 
 void AuditQueue::answered(const std::shared_ptr<Batch>& batch, const std::string& auditor,

@@ -24,6 +24,7 @@
 #include "validation/runner/live.hpp"
 #include "validation/runner/pieces.hpp"
 #include "validation/runner/process_pool.hpp"
+#include "validation/runner/serve.hpp"
 #include "validation/symmetry/listing.hpp"
 
 namespace rigor::validation {
@@ -184,6 +185,9 @@ int dispatch(const std::vector<std::string>& arguments, const ChildEntries& more
     if (what == "__reference" && arguments.size() == 2) return referenceChild(arguments[1], make);
     if (what == "__audit" && arguments.size() == 2) return auditChild(arguments[1]);
     if (what == "__describe" && arguments.size() == 3) return describeChild(arguments[1], arguments[2]);
+    constexpr std::size_t kServeArguments = 4;  // the last one is room
+    if (what == kServeCommand && arguments.size() == kServeArguments)
+        return dispatch(serveRequests(arguments[1], std::stoi(arguments[2])), more, make);
     std::fprintf(stderr, "rigor: '%s' is not for people\n", what.c_str());
     return 2;
 }

@@ -14,6 +14,12 @@
 namespace rigor::validation {
 namespace {
 
+constexpr int kDigits = 10;  ///< digits of the largest process id there can be
+
+void setDigits(char* digits, pid_t process) {
+    for (int i = kDigits; i-- > 0; process /= 10) digits[i] = static_cast<char>('0' + process % 10);
+}
+
 /// Children of this process, zombies included; each thread has a list of its own.
 std::vector<pid_t> ownChildren() {
     std::vector<pid_t> children;
@@ -37,7 +43,14 @@ bool descendsFrom(pid_t process, const std::string& mark) {
 }  // namespace
 
 std::string ancestorMark(pid_t parent, pid_t child) {
-    return std::to_string(parent) + "-" + std::to_string(child);
+    std::string mark(2 * kDigits + 1, '-');
+    setDigits(mark.data(), parent);
+    setMarkedChild(mark.data(), child);
+    return mark;
+}
+
+void setMarkedChild(char* mark, pid_t child) {
+    setDigits(mark + kDigits + 1, child);
 }
 
 void adoptOrphans() {

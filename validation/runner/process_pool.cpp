@@ -90,6 +90,20 @@ ProcessPool::~ProcessPool() {
     killAll();
 }
 
+pid_t ProcessPool::startChild(const ProcessTask& task, int output,
+                              const std::optional<KeptGuests::Loan>& loan) {
+    if (loan) {
+        const adapter::GuestProcess& guest = loan->guest.process;
+        return startProgram(task.arguments, output, task.limits.memoryMiB,
+                            {guest.input, guest.output, guest.log},
+                            adapter::lentGuestVariable(loan->name, loan->guest));
+    }
+    if (task.module)
+        if (const auto pid = servers_.start(*task.module, task.arguments, output, task.limits.memoryMiB))
+            return *pid;
+    return startProgram(task.arguments, output, task.limits.memoryMiB);
+}
+
 void ProcessPool::start(ProcessTask task) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw results::EnvironmentError("pipe: " + results::errorText(errno));
@@ -98,14 +112,7 @@ void ProcessPool::start(ProcessTask task) {
     std::optional<KeptGuests::Loan> loan;
     if (guests_ && !task.guest.empty()) loan = guests_->lend(task.guest);
     try {
-        if (loan) {
-            const adapter::GuestProcess& guest = loan->guest.process;
-            pid = startProgram(task.arguments, ends[1], task.limits.memoryMiB,
-                               {guest.input, guest.output, guest.log},
-                               adapter::lentGuestVariable(loan->name, loan->guest));
-        } else {
-            pid = startProgram(task.arguments, ends[1], task.limits.memoryMiB);
-        }
+        pid = startChild(task, ends[1], loan);
     } catch (...) {
         if (loan) guests_->takeBack(*std::move(loan), false);
         close(ends[0]);

@@ -15,12 +15,14 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "validation/runner/fork_server.hpp"
 #include "validation/runner/kept_guests.hpp"
 
 namespace rigor::validation {
@@ -63,6 +65,9 @@ struct ProcessTask {
     int outOfMemory = 0;  ///< number of these that ended while the system killed a process for want of memory
     std::string
         guest{};  ///< engine that it uses, which is lent to it if it is a guest that is kept; "": none
+    /// It may be forked from a process that has loaded this module (kNoModule: none), instead of being started. Then
+    /// the first of the arguments is this program.
+    std::optional<std::filesystem::path> module{};
 };
 
 class ProcessPool {
@@ -98,6 +103,7 @@ class ProcessPool {
         std::optional<KeptGuests::Loan> loan;
     };
     void start(ProcessTask task);
+    pid_t startChild(const ProcessTask& task, int output, const std::optional<KeptGuests::Loan>& loan);
     void waitForEvents();
     bool collect(Running& child);
     static bool isOverTime(Running& child);
@@ -110,6 +116,7 @@ class ProcessPool {
     std::deque<ProcessTask> waiting_;
     std::deque<Running> running_;
     std::unique_ptr<KeptGuests> guests_;
+    ForkServers servers_;
 };
 
 /// Factor on time limits: sanitizer builds are that much slower.

@@ -121,7 +121,12 @@ std::vector<ReferenceCheck> checkReferences(const std::vector<ReferenceQuestion>
                   queries[i].name,
                   [&checks, &limits, i, answer](const ProcessResult& result) {
                       checks[i] = answered(answer, result, limits);
-                  }});
+                  },
+                  false,
+                  0,
+                  0,
+                  "",
+                  kNoModule});
     }
     const std::atomic<bool> never{false};
     pool.run(never, [](const std::string&) {});

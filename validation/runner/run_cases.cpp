@@ -284,6 +284,7 @@ class RunInProgress {
                          [this, index](const ProcessResult& result) { ended(index, result); },
                          true};
         task.guest = c.spec.engine;
+        task.module = servedModule(c.spec);
         return task;
     }
 
@@ -315,12 +316,15 @@ class RunInProgress {
                       orderName(c, number));
         requested["order"] = number;
         writeJsonFile(request, requested);
-        return {{options_.binary.string(), "__case", request.string()},
-                {c.scenario.timeLimit, options_.memoryLimitMiB},
-                c.scenario.name + ", " + c.spec.text() + ", order " + std::to_string(number + 1) + " of " +
-                    std::to_string(others + 1),
-                [this, index, number](const ProcessResult& result) { orderEnded(index, number, result); },
-                true};
+        ProcessTask task{
+            {options_.binary.string(), "__case", request.string()},
+            {c.scenario.timeLimit, options_.memoryLimitMiB},
+            c.scenario.name + ", " + c.spec.text() + ", order " + std::to_string(number + 1) + " of " +
+                std::to_string(others + 1),
+            [this, index, number](const ProcessResult& result) { orderEnded(index, number, result); },
+            true};
+        task.module = servedModule(c.spec);
+        return task;
     }
 
     /// Limits of a reference within a case, which computes all metrics in that time and memory as well.

@@ -29,51 +29,33 @@ constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(th
 constexpr bool kSanitized = false;
 #endif
 
-/// The environment of a child, with room for its process id, which is known only after the fork.
+/// The environment of a child, whose process id is known only after the fork.
 class ChildEnvironment {
   public:
     explicit ChildEnvironment(const std::string& variable)
-        : variable_(variable), mark_(std::string(kAncestorVariable) + "=" + ancestorMark(getpid(), 0)) {
-        digits_ = mark_.size() - 1;
-        mark_.append(kMostDigits, '\0');
-        const std::string name = std::string(kAncestorVariable) + "=";
+        : variable_(variable), name_(std::string(kAncestorVariable) + "=") {
+        mark_ = name_ + ancestorMark(getpid(), 0);
         for (char** entry = environ; *entry != nullptr; ++entry)
-            if (!std::string_view(*entry).starts_with(name)) entries_.push_back(*entry);
+            if (!std::string_view(*entry).starts_with(name_)) entries_.push_back(*entry);
         if (!variable_.empty()) entries_.push_back(variable_.data());
         entries_.push_back(mark_.data());
         entries_.push_back(nullptr);
     }
     /// Safe between fork and exec.
     char* const* of(pid_t self) {
-        char reversed[kMostDigits];
-        int count = 0;
-        for (; self > 0; self /= 10) reversed[count++] = static_cast<char>('0' + self % 10);
-        for (int i = 0; i < count; ++i) mark_[digits_ + i] = reversed[count - 1 - i];
+        setMarkedChild(mark_.data() + name_.size(), self);
         return entries_.data();
     }
 
   private:
-    static constexpr int kMostDigits = 20;
-    std::string variable_, mark_;
-    std::size_t digits_ = 0;
+    std::string variable_, name_, mark_;
     std::vector<char*> entries_;
 };
 
 /// Runs between fork and exec, with calls only that are safe there.
 [[noreturn]] void becomeProgram(char* const* argv, ChildEnvironment& environment, int output, pid_t parent,
                                 std::size_t memoryMiB, const std::vector<int>& keepOpen) {
-    setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(kExitEnvironment);  // it died before prctl took effect
-    struct rlimit none {};
-    setrlimit(RLIMIT_CORE, &none);
-    if (memoryMiB > 0) {
-        // The hard limit stays: an engine's own process may need addresses that it does not use.
-        struct rlimit limit {};
-        getrlimit(RLIMIT_AS, &limit);
-        limit.rlim_cur = std::min<rlim_t>(memoryMiB << 20, limit.rlim_max);
-        setrlimit(RLIMIT_AS, &limit);
-    }
+    settleChild(parent, memoryMiB);
     const int null = open("/dev/null", O_RDONLY);
     if (null >= 0) dup2(null, STDIN_FILENO);
     dup2(output, STDOUT_FILENO);
@@ -92,6 +74,21 @@ class ChildEnvironment {
 
 bool isSanitized() {
     return kSanitized;
+}
+
+void settleChild(pid_t parent, std::size_t memoryMiB) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(kExitEnvironment);  // it died before prctl took effect
+    struct rlimit none {};
+    setrlimit(RLIMIT_CORE, &none);
+    if (memoryMiB > 0) {
+        // The hard limit stays: an engine's own process may need addresses that it does not use.
+        struct rlimit limit {};
+        getrlimit(RLIMIT_AS, &limit);
+        limit.rlim_cur = std::min<rlim_t>(memoryMiB << 20, limit.rlim_max);
+        setrlimit(RLIMIT_AS, &limit);
+    }
 }
 
 pid_t startProgram(const std::vector<std::string>& arguments, int output, std::size_t memoryMiB,

@@ -24,6 +24,10 @@ bool isSanitized();  ///< this build: slower, and it reserves terabytes of addre
 pid_t startProgram(const std::vector<std::string>& arguments, int output, std::size_t memoryMiB,
                    const std::vector<int>& keepOpen = {}, const std::string& variable = "");
 
+/// The first steps of a child of `parent`: a process group of its own, its death with that of the parent, no core
+/// dump, the limit of its address space (0: none). Safe between fork and exec.
+void settleChild(pid_t parent, std::size_t memoryMiB);
+
 /// Appends what is there to read of a child's output, of which the last few KiB are kept; false at its end.
 bool drainOutput(int file, std::string& tail);
 

@@ -110,7 +110,7 @@ class Outside : public fixtures::RunnerTest {
 };
 
 TEST_F(Outside, AChildThatIsKilledOnceIsRunAgain) {
-    for (const char* kind : {"__case", "__audit", "__describe"})
+    for (const char* kind : {"__case", "__audit", "__describe", "__serve"})
         for (const int signal : {SIGKILL, SIGTERM}) {
             SCOPED_TRACE(std::string(kind) + " " + std::to_string(signal));
             const std::string folder = kind + std::to_string(signal);
@@ -141,6 +141,15 @@ TEST_F(Outside, AChildThatIsKilledEveryTimeHasNoVerdict) {
         }
         expectResumed(o);
     }
+}
+
+/// Without a server every child starts the program anew, and the run is the same.
+TEST_F(Outside, ServersThatAreKilledEveryTimeAreDoneWithout) {
+    Killer killer("__serve", 1000);
+    const auto alone = run(cases_, audited("alone"));
+    EXPECT_GT(killer.stop(), 1);
+    EXPECT_EQ(timeless(alone), timeless(whole_));
+    EXPECT_FALSE(alone.finished.empty());
 }
 
 TEST_F(Outside, AnEngineThatCannotBeDescribedForKillingStopsTheRun) {

@@ -27,7 +27,7 @@
 
 namespace {
 
-/// First argument of this program.
+/// First argument of this program. A process that was forked for a case has that of a case.
 std::string firstArgument() {
     char line[4096];
     const long file = syscall(SYS_openat, AT_FDCWD, "/proc/self/cmdline", O_RDONLY | O_CLOEXEC);
@@ -44,13 +44,13 @@ struct Faults {
     int code = 0;
     bool isShort = false, isFull = false;
     std::vector<std::string> folders;
+    std::string process;  ///< first argument of the processes that are concerned; "": all are
 
     Faults() {
         const char *counter = std::getenv("RIGOR_FAULT_COUNTER"), *number = std::getenv("RIGOR_FAULT_AT"),
                    *kind = std::getenv("RIGOR_FAULT_KIND"), *under = std::getenv("RIGOR_FAULT_UNDER");
         if (counter == nullptr || number == nullptr || kind == nullptr || under == nullptr) return;
-        const char* process = std::getenv("RIGOR_FAULT_PROCESS");
-        if (process != nullptr && firstArgument() != process) return;
+        if (const char* only = std::getenv("RIGOR_FAULT_PROCESS")) process = only;
         const long file = syscall(SYS_openat, AT_FDCWD, counter, O_RDWR | O_CLOEXEC);
         if (file < 0) return;
         void* memory =
@@ -72,7 +72,7 @@ struct Faults {
     }
 
     bool concerns(const char* path) const {
-        if (path == nullptr) return false;
+        if (path == nullptr || (!process.empty() && firstArgument() != process)) return false;
         for (const std::string& folder : folders)
             if (std::strncmp(path, folder.c_str(), folder.size()) == 0) return true;
         return false;
