@@ -24,6 +24,7 @@
 #include "validation/runner/live.hpp"
 #include "validation/runner/pieces.hpp"
 #include "validation/runner/process_pool.hpp"
+#include "validation/runner/refusal.hpp"
 #include "validation/runner/serve.hpp"
 #include "validation/symmetry/listing.hpp"
 
@@ -38,14 +39,8 @@ using results::Outcome;
     _exit(kExitOutOfMemory);
 }
 
-CaseRow refusedRow(const json& request, const adapter::EngineSpec& spec, Outcome outcome,
-                   const char* reason) {
-    CaseRow row;
-    row.scenario = request.at("scenario");
-    row.spec = spec.text();
-    row.engine = spec.engine;
-    row.preset = spec.preset();
-    row.dt = numberFromJson(request.at("dt"));
+CaseRow failedRow(const json& request, const adapter::EngineSpec& spec, Outcome outcome, const char* reason) {
+    CaseRow row = rowWithout(request.at("scenario"), spec, numberFromJson(request.at("dt")));
     row.outcome = outcome;
     row.reason = reason;
     return row;
@@ -65,18 +60,6 @@ Outcome outcomeOf(const adapter::EngineFailure& failure) {
             break;
     }
     return Outcome::Error;
-}
-
-/// The ledger of a refused case is what was refused.
-CaseRow refusedRow(const json& request, const adapter::EngineSpec& spec, const adapter::Unsupported& error) {
-    CaseRow row = refusedRow(request, spec, Outcome::Unsupported, error.what());
-    row.refusal = adapter::refusalName(error.refusal());
-    const bool documented = !error.documentation().empty();
-    row.ledger.push_back(
-        {"refused", error.lacking(), adapter::refusalText(error.refusal()),
-         adapter::realisationName(adapter::Realisation::Unsupported),
-         documented ? "its documentation: " + error.documentation() : "the adapter has no code for it yet"});
-    return row;
 }
 
 /// Options of a run. After the mark, the end of this process is due to the reference, which has a time limit
@@ -162,14 +145,14 @@ int caseChild(const std::filesystem::path& requestFile, const ReferenceMaker& ma
         row = runRequested(*request, s, spec, make);
         ran = true;
     } catch (const adapter::Unsupported& error) {
-        row = refusedRow(*request, spec, error);
+        row = refusedRow(s.name, spec, numberFromJson(request->at("dt")), error);
     } catch (const adapter::EngineFailure& failure) {
-        row = refusedRow(*request, spec, outcomeOf(failure), failure.what());
+        row = failedRow(*request, spec, outcomeOf(failure), failure.what());
     } catch (const results::EnvironmentError&) {
         throw;
     } catch (const std::exception& error) {
         checkHandles();
-        row = refusedRow(*request, spec, Outcome::Error, error.what());
+        row = failedRow(*request, spec, Outcome::Error, error.what());
     }
     if (!ran) judgeCase(row, s);
     writeJsonFile(request->at("answer").get<std::string>(), caseToJson(row));

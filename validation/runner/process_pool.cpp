@@ -240,13 +240,19 @@ void ProcessPool::settle(Running ended) {
 void ProcessPool::runAll(const std::atomic<bool>& interrupted,
                          const std::function<void(const std::string&)>& onStart) {
     while (!interrupted && (!waiting_.empty() || !running_.empty())) {
-        while (!waiting_.empty() && running_.size() < static_cast<std::size_t>(std::max(1, slots_))) {
+        while (!interrupted && !waiting_.empty() &&
+               running_.size() < static_cast<std::size_t>(std::max(1, slots_))) {
             ProcessTask task = std::move(waiting_.front());
             waiting_.pop_front();
+            if (task.arguments.empty()) {
+                task.done({});
+                continue;
+            }
             const std::string name = task.name;
             start(std::move(task));
             onStart(name);
         }
+        if (running_.empty()) continue;
         waitForEvents();
         for (std::size_t i = 0; i < running_.size();) {
             if (!collect(running_[i])) {

@@ -55,7 +55,8 @@ struct ProcessResult {
 };
 
 struct ProcessTask {
-    std::vector<std::string> arguments;  ///< the first is the program's file
+    /// The first is the program's file. None: nothing is run, `done` is called when it is the task's turn.
+    std::vector<std::string> arguments;
     ProcessLimits limits;
     std::string name;                                ///< name for the progress line
     std::function<void(const ProcessResult&)> done;  ///< called at the end; may add tasks

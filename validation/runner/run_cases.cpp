@@ -23,6 +23,7 @@
 #include "validation/runner/orders.hpp"
 #include "validation/runner/pieces.hpp"
 #include "validation/runner/process_pool.hpp"
+#include "validation/runner/refusal.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace rigor::validation {
@@ -46,14 +47,9 @@ std::string readable(const std::string& output) {
 }
 
 CaseRow plannedRow(const CasePlan& plan, std::int64_t position) {
-    CaseRow row;
+    CaseRow row = rowWithout(plan.scenario.name, plan.spec, plan.dt);
     row.id = plan.id;
     row.position = position;
-    row.scenario = plan.scenario.name;
-    row.spec = plan.spec.text();
-    row.engine = plan.spec.engine;
-    row.preset = plan.spec.preset();
-    row.dt = plan.dt;
     return row;
 }
 
@@ -170,11 +166,15 @@ class RunInProgress {
         for (const auto& s : header.scenarios) scenarios_[s.name] = s;
         if (!options_.records.empty()) record_ = Record(options_.records, header.engines);
 
+        std::map<std::string, EngineDescription> described;
+        for (const auto& d : engines) described[d.info.name] = d;
         progress_.total = plan_.size();
         for (const CasePlan& c : plan_) ++open_[c.scenario.name];
         for (std::size_t i = 0; i < plan_.size(); ++i)
             if (const auto it = present.find(plan_[i].id); it != present.end() && hasOrders(i, it->second))
                 keep(i, it->second);
+            else if (const auto refusal = declaredRefusal(plan_[i], described.at(plan_[i].spec.engine)))
+                pool_.add(refusedTask(i, *refusal));
             else
                 pool_.add(taskOf(i, references_.at(plan_[i].scenario.name)));
         started_ = std::chrono::steady_clock::now();
@@ -269,6 +269,21 @@ class RunInProgress {
         return requested;
     }
     fs::path answerOf(const std::string& name) const { return scratch_.path() / (name + ".answer.json"); }
+
+    /// A case that needs no child. Its row is stored in its turn.
+    ProcessTask refusedTask(std::size_t index, const adapter::Unsupported& refusal) {
+        ProcessTask task;
+        task.done = [this, index, refusal](const ProcessResult&) {
+            const CasePlan& c = plan_[index];
+            CaseRow row = refusedRow(c.scenario.name, c.spec, c.dt, refusal);
+            judgeCase(row, c.scenario);
+            row.id = c.id;
+            row.position = index;
+            row.command = reproduceCommand(c, options_.directory, fromLibrary_[c.scenario.name]);
+            store(index, row);
+        };
+        return task;
+    }
 
     /// The child of a case, its request written.
     ProcessTask taskOf(std::size_t index, const ReferenceCheck& reference) {
