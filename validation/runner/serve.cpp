@@ -9,12 +9,15 @@
 
 #include <fcntl.h>
 #include <linux/sched.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/random.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -151,6 +154,17 @@ bool report(int socket, pid_t pid) {
     return send(socket, &answer, sizeof answer, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof answer);
 }
 
+/// Moves the heap and later mappings by a random number of pages. A started program has them at random addresses; in
+/// forks at the same ones an engine whose results depend on addresses would look deterministic.
+void moveAddresses() {
+    constexpr std::uintptr_t kMostPages = 1024;
+    std::array<std::uint16_t, 2> random{};
+    if (getrandom(random.data(), sizeof random, 0) != static_cast<ssize_t>(sizeof random)) return;
+    const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+    (void)sbrk(static_cast<std::intptr_t>((1 + random[0] % kMostPages) * page));
+    (void)mmap(nullptr, (1 + random[1] % kMostPages) * page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+}
+
 /// The first steps of a forked child. A parent that gave up waiting for its report starts the case anew: then this
 /// process must not go on. From the report on it is one that others may look for and stop.
 void becomeChild(const ForkRequest& request, ArgumentMemory& shown, pid_t parent, int socket) {
@@ -161,6 +175,7 @@ void becomeChild(const ForkRequest& request, ArgumentMemory& shown, pid_t parent
     if (char* mark = std::getenv(kAncestorVariable)) setMarkedChild(mark, getpid());
     if (!report(socket, getpid())) _exit(kExitEnvironment);
     close(socket);
+    moveAddresses();
     shown.write(request.arguments);
 }
 

@@ -14,6 +14,7 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "validation/runner/descendants.hpp"
 #include "validation/runner/serve.hpp"
@@ -116,6 +117,27 @@ TEST_F(Served, AForkIsSetUpAsAStartedProgramIs) {
     const int status = end(*child).second;
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
     EXPECT_TRUE(isServed("free_flight"));
+}
+
+/// The heaps of started programs are at random addresses; those of forks differ, too.
+TEST_F(Served, ForksHaveTheirHeapsAtRandomAddresses) {
+    const auto pipeFile = scratch_.path() / "pipe";
+    ASSERT_EQ(mkfifo(pipeFile.c_str(), 0600), 0);
+    std::set<std::string> heaps;
+    for (int k = 0; k < 3; ++k) {
+        const auto child = start("free_flight", {"__case", pipeFile.string()});
+        ASSERT_TRUE(child);
+        const fs::path process = "/proc/" + std::to_string(child->pid);
+        for (int i = 0; i < 500 && bytesOf(process / "cmdline").find("__case") == std::string::npos; ++i)
+            usleep(10000);
+        const std::string maps = bytesOf(process / "maps");
+        const auto heap = maps.find("[heap]"), line = maps.rfind('\n', heap) + 1;
+        ASSERT_NE(heap, std::string::npos);
+        heaps.insert(maps.substr(line, maps.find(' ', line) - line));
+        kill(child->pid, SIGKILL);
+        (void)end(*child);
+    }
+    EXPECT_GT(heaps.size(), 1u);
 }
 
 TEST_F(Served, ModulesThatLeaveSomethingBehindAreNot) {

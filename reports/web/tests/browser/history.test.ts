@@ -77,6 +77,7 @@ describe('two runs with their replays', { skip }, () => {
     await it.page.waitForSelector('.replay .label small:not(:empty)');
     assert.equal(await it.page.locator('.replay .label b:not(.ghost)').count(), 2);
     await it.page.click('.replay [data-action="forward"]');
+    await it.page.locator('.replay .label small', { hasText: 'frame 2' }).nth(1).waitFor();
     const states = await it.page.locator('.replay .label small').allTextContents();
     assert.match(states[0] ?? '', /frame 2/);
     assert.equal(states[0], states[1]);
