@@ -131,7 +131,7 @@ TEST_F(Served, ForksHaveTheirHeapsAtRandomAddresses) {
         for (int i = 0; i < 500 && bytesOf(process / "cmdline").find("__case") == std::string::npos; ++i)
             usleep(10000);
         const std::string maps = bytesOf(process / "maps");
-        const auto heap = maps.find("[heap]"), line = maps.rfind('\n', heap) + 1;
+        const auto heap = maps.rfind("[heap]"), line = maps.rfind('\n', heap) + 1;
         ASSERT_NE(heap, std::string::npos);
         heaps.insert(maps.substr(line, maps.find(' ', line) - line));
         kill(child->pid, SIGKILL);
