@@ -311,11 +311,10 @@ void Step<S>::correct() {
         // Slower than this a contact is as good as resting, and its overlap is corrected.
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
         StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, state_.positions);
-        // Joints are put right again at the end of the step; one iteration keeps midpoints
-        // from drifting.
+        // Joints are put right again at the end of the step; one iteration keeps midpoints from drifting.
         const bool once = motion_.isAtMidpoint() && positions.contactCount() == 0;
-        const int most = def_.positionIterations;
-        algorithms_.correction->correct(positions, {most, once ? std::min(most, 1) : most}, def_.slop);
+        algorithms_.correction->correct(
+            positions, once ? std::min(def_.positionIterations, 1) : def_.positionIterations, def_.slop);
     }
     motion_.finish(bodies_, h, tasks_);
     if (!last) advanceContacts();

@@ -25,10 +25,10 @@ class Ngs final : public PositionCorrection<S> {
 
     std::unique_ptr<PositionCorrection<S>> clone() const override { return std::make_unique<Ngs>(*this); }
 
-    void correct(PositionProblem<S>& problem, const PositionIterations& iterations, Real slop) override {
+    void correct(PositionProblem<S>& problem, int iterations, Real slop) override {
         Real last = std::numeric_limits<Real>::infinity();
         bool together = true;
-        for (int i = 0; i < iterations.most; ++i) {
+        for (int i = 0; i < iterations; ++i) {
             const Real error = correctJoints(problem, together);
             correctContacts(problem, slop);
             problem.applyRotations();
@@ -38,14 +38,12 @@ class Ngs final : public PositionCorrection<S> {
                 if (problem.contactCount() == 0 && !limited_ && error < kRounding) break;
                 together = together && error < kRounding;
             }
-            if (i + 1 >= iterations.usual && error < kNear) break;
             last = error;
         }
     }
 
   private:
-    static constexpr Real kBaumgarte = Real(0.2);  ///< beta of contacts
-    static constexpr Real kNear = Real(1e-5);      ///< joint error that Newton's method squares [m] or [rad]
+    static constexpr Real kBaumgarte = Real(0.2);    ///< beta of contacts
     static constexpr Real kLongestMove = Real(0.2);  ///< longest move per contact and iteration [m]
 
     /// Returns the largest error of a row that holds.
