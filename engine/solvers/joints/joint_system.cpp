@@ -179,11 +179,13 @@ void JointSystem<S>::eliminate(const Part& part) {
         for (std::size_t i = 0; i < size; ++i)
             x[k * pad + i] = shiftPivot(diagonal[(k * size + i) * pad + i]);
     factorPart(kernelPart(part), x);
-    // A chain or a tree that hangs on one fixed body has fewer couplings than items, and no redundant rows. In large parts, as
-    // flat nets, the directions that K hardly sees matter, of which each solve without the excess gains less.
-    const std::size_t items = part.last - part.first;
-    const bool isTree = part.lastCoupling - part.coupling < items && part.fixed <= 1;
-    if (isTree || items > kMechanism) return;
+    // A chain or a tree that hangs on one fixed body has fewer couplings than items, and no redundant rows; a bridge
+    // between two has one loop. In large parts of many loops, as flat nets, the directions that K hardly sees matter,
+    // of which each solve without the excess gains less.
+    const std::size_t items = part.last - part.first, couplings = part.lastCoupling - part.coupling;
+    const std::size_t anchors = std::max<std::size_t>(part.fixed, 1);
+    const bool isTree = couplings < items && anchors == 1;
+    if (isTree || (items > kMechanism && couplings + anchors > items + 1)) return;
     // A pivot of which the shift is a large part belongs to a row that others make redundant. The diagonal has the
     // reciprocals of the pivots' roots now, x half their shifts.
     bool redundant = false;

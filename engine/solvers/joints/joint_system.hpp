@@ -52,7 +52,7 @@ class JointSystem {
   private:
     static constexpr std::size_t kMaxFill = 24;
     static constexpr std::size_t kMechanism =
-        8;  ///< largest number of items of a part that is looked at for redundant rows
+        8;  ///< largest number of items of a part with several loops that is looked at for redundant rows
     static constexpr Real kMostShift =
         Real(100);  ///< pivots of redundant rows are less than this times their shift
     static constexpr std::size_t kGrain = 8;  ///< parts: one takes some microseconds
