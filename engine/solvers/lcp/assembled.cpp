@@ -39,6 +39,7 @@ void AssembledProblem::assemble(const ConstraintRows<S>& rows, std::size_t bodie
     n = rows.rows.size();
     if (W.size() < n * n) W.resize(n * n);
     std::fill_n(W.begin(), n * n, 0.0);
+    w.resize(n);
     q.resize(n);
     lambda.resize(n);
     lower.resize(n);
@@ -145,13 +146,19 @@ void AssembledProblem::readVelocities(const ConstraintRows<S>& rows,
         for (std::size_t i = block.first; i < block.first + std::size_t(block.rows); ++i) {
             const Row<S>& row = rows.rows[i];
             if (!(row.invK > 0)) {
-                q[i] = 0;
+                w[i] = 0;
                 continue;
             }
-            q[i] = static_cast<double>(rowVelocity<S>(row, velocities[block.a], velocities[block.b])) +
+            w[i] = static_cast<double>(rowVelocity<S>(row, velocities[block.a], velocities[block.b])) +
                    static_cast<double>(row.bias) + static_cast<double>(row.softness) * lambda[i];
-            for (std::size_t j = 0; j < n; ++j) q[i] -= W[i * n + j] * lambda[j];
         }
+}
+
+void AssembledProblem::findOffsets() {
+    for (std::size_t i = 0; i < n; ++i) {
+        q[i] = w[i];
+        for (std::size_t j = 0; j < n; ++j) q[i] -= W[i * n + j] * lambda[j];
+    }
 }
 
 #define RIGOR_INSTANTIATE(S)                                                            \

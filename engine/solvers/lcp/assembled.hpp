@@ -40,24 +40,30 @@ class AssembledProblem {
   public:
     std::size_t n = 0;
     std::vector<double> W;  ///< n x n, row by row; a row that no body can follow has a 1 on the diagonal
-    std::vector<double> q, lambda;
+    std::vector<double> w, q, lambda;
+    std::vector<double> own;           ///< empty, or W_ii before other rows were taken out (FreeRows)
     std::vector<double> lower, upper;  ///< bounds of Bounded rows; infinite for Free, [0, inf) for Normal
     std::vector<RowKind> kind;
     std::vector<AssembledContact> contacts;
 
-    /// Everything but q and lambda.
+    /// Everything but w, q and lambda.
     template <class S>
     void assemble(const ConstraintRows<S>& rows, std::size_t bodies);
-    /// q and lambda from the biases, velocities and impulses of now.
+    /// w and lambda from the biases, velocities and impulses of now. O(n).
     template <class S>
     void readVelocities(const ConstraintRows<S>& rows, std::span<const Velocity<S>> velocities);
 
+    /// q from w and lambda.
+    void findOffsets();
+
     double at(std::size_t i, std::size_t j) const { return W[i * n + j]; }
+    /// Velocity that a unit impulse of row i gives the row, if no other row holds it.
+    double scale(std::size_t i) const { return own.empty() ? at(i, i) : own[i]; }
     /// w of row i under the impulses.
     double velocity(std::size_t i, const std::vector<double>& impulses) const {
-        double w = q[i];
-        for (std::size_t j = 0; j < n; ++j) w += W[i * n + j] * impulses[j];
-        return w;
+        double sum = q[i];
+        for (std::size_t j = 0; j < n; ++j) sum += W[i * n + j] * impulses[j];
+        return sum;
     }
     /// The impulse of row i within the bounds that comes next to making its w zero, the others kept.
     double relaxed(std::size_t i, const std::vector<double>& impulses, double least, double most) const {

@@ -36,6 +36,7 @@ class DirectRounds : public Solver<S> {
         for (int round = 0;; ++round) {
             input.monitor.before(input.velocities);
             problem_.readVelocities<S>(input.constraints, input.velocities);
+            problem_.findOffsets();
             converged = round > 0 && residual() <= tolerance(input);
             if (converged || round == input.iterations || isHopeless()) break;
             improve(input, round);

@@ -15,8 +15,9 @@
 //     what becomes of a part does not depend on the others;
 //   - Newton's method (newton_finish.hpp), with friction on the exact cone, solves what the iterations allowed, at
 //     least kFinishIterations, leave of a part: of a small one in any case, of a larger one if its matrix is narrow
-//     (elimination_order.hpp) and its contacts are sorted. Small parts of contacts alone it solves sooner. Heavy boxes on
-//     light ones, and stacks, are then solved to rounding.
+//     (elimination_order.hpp) and its contacts are sorted. Parts of few contacts, and of few contacts and limits of many
+//     joints (free_rows.hpp), it solves sooner. Heavy boxes on light ones, and stacks, are then solved to rounding;
+//   - sweeps give up on parts with joints that they hardly bring nearer.
 //
 // Cost: the sum over all parts of iterations * rows * (1..kInnerSweeps). Known limits: contacts converge
 // linearly, slowly for large mass ratios, where a part is too large for Newton's method.
@@ -63,6 +64,8 @@ class BlockGaussSeidel final : public Solver<S> {
     /// Sweeps over all groups but those of parts that are solved.
     void iterate(const SolverInput<S>& input) {
         solved_.assign(parts_.count(), 0);
+        stalled_.assign(parts_.count(), 0);
+        before_.assign(parts_.count(), std::numeric_limits<Real>::max());
         found_.resize(groups_.size());
         for (int i = 0; i < input.iterations; ++i) {
             renewBiases(input, i);
@@ -75,6 +78,7 @@ class BlockGaussSeidel final : public Solver<S> {
             });
             if (input.monitor.after(input.velocities, change)) break;
             if (markSolved(input)) break;
+            if ((i + 1) % kStallIterations == 0) giveUpStalled(input);
             if (i + 1 == kEarlyIterations) finishEarly(input);
             if (i > kPlainSweeps && i % 2 != 0 && i + 1 < input.iterations)
                 forUnsolved(input, [&](std::size_t part) { conjugate_.advance(input, part, blocks_); });
@@ -89,6 +93,14 @@ class BlockGaussSeidel final : public Solver<S> {
             collectBlocks(input.constraints.blocks, part, std::numeric_limits<std::size_t>::max());
             if (!hasJoints(input)) use(part);
         }
+    }
+
+    /// Rows of the blocks in blocks_ but those of one kind.
+    std::size_t rowsWithout(const SolverInput<S>& input, BlockKind kind) const {
+        std::size_t rows = 0;
+        for (const std::uint32_t k : blocks_)
+            if (input.constraints.blocks[k].kind != kind) rows += input.constraints.blocks[k].rows;
+        return rows;
     }
 
     bool hasJoints(const SolverInput<S>& input) const {
@@ -113,13 +125,32 @@ class BlockGaussSeidel final : public Solver<S> {
         const Real tolerance = input.monitor.tolerance();
         bool all = true;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
-            Real change = 0;
-            for (const std::uint32_t group : parts_.units(part)) change = std::max(change, found_[group]);
+            const Real change = changeOf(part);
             solved_[part] = change < tolerance ||
                             (tolerance > 0 && mayBeRounding(change) && change < resolution(input, part));
             all = all && solved_[part] != 0;
         }
         return all;
+    }
+
+    /// Sweeps end, too, over parts with joints that they hardly bring nearer. Friction that sticks may have to grow
+    /// until it slides, where joints and contacts require what cannot both be: sweeps take thousands for that.
+    void giveUpStalled(const SolverInput<S>& input) {
+        for (std::size_t part = 0; part < parts_.count(); ++part) {
+            if (solved_[part]) continue;
+            collectBlocks(input.constraints.blocks, part, std::numeric_limits<std::size_t>::max());
+            if (!hasJoints(input) || rowsWithout(input, BlockKind::Joint) == 0) continue;
+            const Real change = changeOf(part);
+            if (change > kStalled * before_[part]) solved_[part] = stalled_[part] = 1;
+            before_[part] = change;
+        }
+    }
+
+    /// Residual of a part before its last sweep.
+    Real changeOf(std::size_t part) const {
+        Real change = 0;
+        for (const std::uint32_t group : parts_.units(part)) change = std::max(change, found_[group]);
+        return change;
     }
 
     /// False: more than the rounding of 1000 m/s.
@@ -162,8 +193,9 @@ class BlockGaussSeidel final : public Solver<S> {
     void finishEarly(const SolverInput<S>& input) {
         if (!mayFinish(input)) return;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
-            if (solved_[part] || !collectBlocks(input.constraints.blocks, part, kEarlyRows)) continue;
-            if (hasJoints(input)) continue;
+            if (solved_[part] || !collectBlocks(input.constraints.blocks, part, kFinishRows)) continue;
+            const std::size_t rows = rowsWithout(input, BlockKind::Joint);
+            if (rows == 0 || rows > kEarlyRows) continue;
             input.monitor.before(input.velocities, blocks_);
             const Residual left = residualOf(input);
             if (left.found > left.goal) {
@@ -220,7 +252,7 @@ class BlockGaussSeidel final : public Solver<S> {
         std::size_t rows = 0;
         for (const std::uint32_t k : blocks_) rows += input.constraints.blocks[k].rows;
         if (rows <= kSmallRows) return true;
-        return !solved_[part] && order_.cost() < kFinishCost &&
+        return (!solved_[part] || stalled_[part]) && order_.cost() < kFinishCost &&
                left.found < kSorted * input.monitor.tolerance();
     }
 
@@ -294,7 +326,10 @@ class BlockGaussSeidel final : public Solver<S> {
         2;  ///< before conjugate gradients: most parts of scenes at rest need no more
     static constexpr int kEarlyIterations = 6;  ///< sweeps before Newton's method takes the smallest parts,
     static constexpr std::size_t kEarlyRows = 48;  ///< the most rows of these
-    static constexpr int kFinishIterations = 30;   ///< fewer than that are too few to sort contacts by
+    static constexpr int kStallIterations =
+        10;  ///< sweeps, even: forwards and backwards differ, in which the
+    static constexpr Real kStalled = Real(0.8);   ///< residual falls at least to this fraction of what it was
+    static constexpr int kFinishIterations = 30;  ///< fewer than that are too few to sort contacts by
     static constexpr int kFinishSteps = 12;
     static constexpr std::size_t kSmallRows = 128;  ///< n^3 / 3 is then less than a millisecond
     static constexpr std::size_t kFinishRows = 512;
@@ -308,6 +343,8 @@ class BlockGaussSeidel final : public Solver<S> {
     std::vector<std::uint32_t> groups_;  ///< first block of each group
     IndependentParts parts_;
     std::vector<std::uint8_t> solved_;   ///< flag of each part
+    std::vector<std::uint8_t> stalled_;  ///< parts that count as solved without being it
+    std::vector<Real> before_;           ///< residual of each part kStallIterations ago
     std::vector<Real> found_;            ///< residual of each group before its last solve
     std::vector<std::uint32_t> blocks_;  ///< blocks of a part
     PartProblem<S> problem_;

@@ -20,7 +20,7 @@ bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<do
         w_[i] = w;
         // The row is set as if w = 0 were its equation, and changed below if it is not.
         std::copy_n(W, n, A + i * n);
-        A[i * n + i] *= 1 + sigma;
+        A[i * n + i] += sigma * p.scale(i);
         right_[i] = -w;
     }
     const auto pin = [&](std::size_t i, double value) {
@@ -30,13 +30,13 @@ bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<do
     };
     for (std::size_t i = 0; i < n; ++i) {
         if (p.kind[i] != RowKind::Bounded && p.kind[i] != RowKind::Normal) continue;
-        const double z = p.lambda[i] - w_[i] / p.at(i, i);
+        const double z = p.lambda[i] - w_[i] / p.scale(i);
         if (z <= p.lower[i]) pin(i, p.lower[i]);
         if (z >= p.upper[i]) pin(i, p.upper[i]);
     }
     for (const AssembledContact& contact : p.contacts) {
         const std::size_t normal = contact.normal;
-        const bool open = p.lambda[normal] - w_[normal] / p.at(normal, normal) <= 0;
+        const bool open = p.lambda[normal] - w_[normal] / p.scale(normal) <= 0;
         if (open && !(contact.applied > 0)) {
             for (std::size_t t = 0; t < contact.tangents; ++t) pin(contact.first + t, 0.0);
         } else if (contact.tangents > 0) {
@@ -57,7 +57,7 @@ bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<do
 void ContactNewton::tangentRows(const AssembledProblem& p, const AssembledContact& contact, double* A) {
     const std::size_t n = p.n, first = contact.first, m = contact.tangents;
     const double load = std::max(0.0, p.lambda[contact.normal]) + contact.applied;
-    const double rho = 1 / p.at(first, first);
+    const double rho = 1 / p.scale(first);
     double z[2] = {0, 0}, length = 0;
     for (std::size_t t = 0; t < m; ++t) z[t] = p.lambda[first + t] - rho * w_[first + t];
     length = std::sqrt(z[0] * z[0] + z[1] * z[1]);

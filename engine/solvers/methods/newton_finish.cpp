@@ -31,8 +31,19 @@ void NewtonFinish<S>::Saved::restore(const SolverInput<S>& input) const {
 
 template <class S>
 void NewtonFinish<S>::assemble(const SolverInput<S>& input) {
-    if (!assembled_) problem_.assemble<S>(input.constraints, input.velocities.size());
+    if (assembled_) return;
+    problem_.assemble<S>(input.constraints, input.velocities.size());
+    eliminated_ = joints_.eliminate(problem_);
     assembled_ = true;
+}
+
+/// A step of Newton's method to target_, on the rows without the free ones where there are such.
+template <class S>
+bool NewtonFinish<S>::takeNewtonStep(double damping) {
+    if (!eliminated_) return newton_.step(problem_, damping, target_);
+    if (!newton_.step(joints_.reduce(problem_), damping, reduced_)) return false;
+    joints_.expand(problem_, reduced_, target_);
+    return true;
 }
 
 template <class S>
@@ -44,8 +55,9 @@ typename S::Real NewtonFinish<S>::attempt(const SolverInput<S>& input, Real resi
     int astray = 0;
     for (int step = 0; step < steps && best > goal; ++step) {
         problem_.readVelocities<S>(input.constraints, input.velocities);
+        if (!eliminated_) problem_.findOffsets();
         Real reached = std::numeric_limits<Real>::infinity();
-        if (newton_.step(problem_, damping, target_) && !runsAway()) reached = take(input, target_);
+        if (takeNewtonStep(damping) && !runsAway()) reached = take(input, target_);
         if (reached < best) {
             best = reached;
             astray = 0;
@@ -71,6 +83,7 @@ typename S::Real NewtonFinish<S>::attemptFromInside(const SolverInput<S>& input,
     const double shift = kShifts[static_cast<std::size_t>(interiorStarts_++)];
     before_.save(input);
     problem_.readVelocities<S>(input.constraints, input.velocities);
+    problem_.findOffsets();
     if (!interior_.solve(problem_, shift, target_)) return residual;
     const Real reached = attempt(input, take(input, target_), goal);
     if (reached < residual) return reached;
@@ -93,7 +106,8 @@ bool NewtonFinish<S>::runsAway() const {
     double now = 0, then = 0;
     for (std::size_t i = 0; i < problem_.n; ++i) {
         const double K = problem_.at(i, i);
-        now = std::max(now, K * std::abs(problem_.lambda[i]) + std::abs(problem_.q[i]));
+        now = std::max(
+            now, K * std::abs(problem_.lambda[i]) + std::abs(eliminated_ ? problem_.w[i] : problem_.q[i]));
         then = std::max(then, K * std::abs(target_[i]));
     }
     return !(then < 1e3 * now);

@@ -10,6 +10,7 @@
 
 #include <vector>
 
+#include "engine/solvers/lcp/free_rows.hpp"
 #include "engine/solvers/methods/contact_interior.hpp"
 #include "engine/solvers/methods/contact_newton.hpp"
 #include "engine/solvers/solver.hpp"
@@ -42,6 +43,7 @@ class NewtonFinish {
     };
     void assemble(const SolverInput<S>& input);
     Real take(const SolverInput<S>& input, const std::vector<double>& impulses);
+    bool takeNewtonStep(double damping);
     bool runsAway() const;
 
     static constexpr int kInteriorStarts = 6;
@@ -50,10 +52,12 @@ class NewtonFinish {
     AssembledProblem problem_;
     ContactNewton newton_;
     ContactInterior interior_;
-    std::vector<double> target_;
+    FreeRows joints_;
+    std::vector<double> target_, reduced_;
     std::vector<Real> next_;
     Saved best_, before_;
     bool assembled_ = false;
+    bool eliminated_ = false;  ///< joints_ has taken the free rows out
     int interiorStarts_ = 0;
 };
 

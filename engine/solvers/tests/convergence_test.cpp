@@ -68,6 +68,7 @@ TYPED_TEST(Convergence, InteriorPointsEndNearTheLaw) {
         AssembledProblem problem;
         problem.assemble<S>(p.rows, p.velocities.size());
         problem.readVelocities<S>(p.rows, p.velocities);
+        problem.findOffsets();
         ASSERT_TRUE(ContactInterior::fits(problem));
         ContactInterior interior;
         std::vector<double> impulses;
