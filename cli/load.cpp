@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "cli/command.hpp"
+#include "cli/reference_checks.hpp"
 #include "scenarios/loader/loader.hpp"
 
 namespace rigor::cli {
@@ -57,17 +58,42 @@ scenario::LoadedScenario loadWithReference(const std::string& nameOrFile,
                                            const std::vector<std::string>& overrides,
                                            const validation::ReferenceLimits& limits, bool mustHold,
                                            validation::ReferenceCheck* found) {
-    const auto path = scenario::findScenario(nameOrFile);
-    auto loaded = scenario::loadScenario(path, overrides);
-    const auto check = validation::checkReference(
-        {loaded.text, loaded.scenario.name, loaded.scenario.reference.has_value()}, limits, ownBinary());
-    if (found != nullptr) *found = check;
-    if (check.problem.empty()) return loaded;
-    const scenario::Problem problem{problemId(check.outcome), path.string(), "/reference",
-                                    loaded.referenceLine,     check.problem, expectedOf(check.outcome)};
-    if (mustHold || check.outcome == ReferenceOutcome::Invalid) throw scenario::LoadError({problem});
-    std::fprintf(stderr, "%s; it runs without a reference\n", problem.text().c_str());
+    ReferenceChecks checks;
+    auto loaded = checks.load(nameOrFile, overrides);
+    const auto result = checks.check(limits, 1, mustHold);
+    if (found != nullptr) *found = result.at(loaded.scenario.name);
     return loaded;
+}
+
+scenario::LoadedScenario ReferenceChecks::load(const std::string& nameOrFile,
+                                               const std::vector<std::string>& overrides) {
+    const auto file = scenario::findScenario(nameOrFile);
+    auto loaded = scenario::loadScenario(file, overrides);
+    const std::string& name = loaded.scenario.name;
+    if (const auto last = last_.find(name);
+        last != last_.end() && questions_[last->second].text == loaded.text)
+        return loaded;
+    last_[name] = questions_.size();
+    loaded_.push_back({file, loaded.referenceLine});
+    questions_.push_back({loaded.text, name, loaded.scenario.reference.has_value()});
+    return loaded;
+}
+
+std::map<std::string, validation::ReferenceCheck> ReferenceChecks::check(
+    const validation::ReferenceLimits& limits, int jobs, bool mustHold) const {
+    const auto checks = validation::checkReferences(questions_, limits, ownBinary(), jobs);
+    std::map<std::string, validation::ReferenceCheck> byName;
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+        const auto& check = checks[i];
+        byName[questions_[i].name] = check;
+        if (check.problem.empty()) continue;
+        const scenario::Problem problem{
+            problemId(check.outcome), loaded_[i].file.string(), "/reference", loaded_[i].line, check.problem,
+            expectedOf(check.outcome)};
+        if (mustHold || check.outcome == ReferenceOutcome::Invalid) throw scenario::LoadError({problem});
+        std::fprintf(stderr, "%s; it runs without a reference\n", problem.text().c_str());
+    }
+    return byName;
 }
 
 bool isBrokenReference(const scenario::Problem& problem) {

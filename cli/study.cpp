@@ -8,6 +8,7 @@
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "cli/reference_checks.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
 #include "validation/runner/describe.hpp"
@@ -46,16 +47,15 @@ int runStudy(const StudyArguments& a) {
         std::fprintf(stderr, "rigor: %s\n", line.c_str());
     validation::RunOptions options;
     options.referenceLimits = a.referenceLimits;
+    ReferenceChecks references;
     auto plan = validation::planStudy(
         study,
         [&](const std::string& name, const std::vector<std::string>& set) {
-            validation::ReferenceCheck reference;
-            auto loaded = loadWithReference(name, set, a.referenceLimits, false, &reference);
-            options.references[loaded.scenario.name] = reference;
-            return loaded;
+            return references.load(name, set);
         },
         [](const std::string& engine) { return validation::describeEngine(engine, ownBinary()).options; });
     validation::checkPlan(plan.cases, ownBinary());
+    options.references = references.check(a.referenceLimits, a.jobs);
 
     options.directory = chooseRunFolder(a.out, a.resume, study.name);
     prepareRunFolder(options.directory, a.resume);

@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "cli/reference_checks.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
 #include "reports/summaries/terminal.hpp"
@@ -45,7 +46,7 @@ struct Selection {
     std::vector<std::pair<scenario::Scenario, std::string>> scenarios;
     std::vector<std::string> engines;
     std::vector<double> timeSteps;
-    std::map<std::string, validation::ReferenceCheck> references;
+    ReferenceChecks references;
     std::string title;
     int orders = 1;
     std::optional<validation::Shard> shard;
@@ -55,17 +56,14 @@ void addScenario(Selection& selection, const std::string& name, const ValidateAr
                  int maxTimeSteps) {
     // The other shards compute the references of their own scenarios.
     const bool isOwn = !selection.shard || selection.shard->hasScenario(selection.scenarios.size());
-    validation::ReferenceCheck reference;
-    auto loaded =
-        isOwn ? loadWithReference(name, arguments.overrides, arguments.referenceLimits, false, &reference)
-              : scenario::loadScenario(scenario::findScenario(name), arguments.overrides);
+    auto loaded = isOwn ? selection.references.load(name, arguments.overrides)
+                        : scenario::loadScenario(scenario::findScenario(name), arguments.overrides);
     for (const auto& present : selection.scenarios) {
         if (present.first.name != loaded.scenario.name) continue;
         if (present.second == loaded.text) return;
         throw std::invalid_argument("'" + name + "': another scenario of this run has the name '" +
                                     loaded.scenario.name + "'; rename one or use two runs");
     }
-    if (isOwn) selection.references[loaded.scenario.name] = reference;
     if (maxTimeSteps > 0 && loaded.scenario.timeSteps.size() > static_cast<std::size_t>(maxTimeSteps))
         loaded.scenario.timeSteps.resize(maxTimeSteps);
     selection.scenarios.emplace_back(std::move(loaded.scenario), std::move(loaded.text));
@@ -203,6 +201,8 @@ int validate(const ValidateArguments& given) {
         arguments.what = arguments.resume ? resumedWhat(arguments) : std::vector{kDefaultSuite};
     checkBaseline(arguments.baseline);
     Selection selection = select(arguments);
+    const int jobs = std::max(1, arguments.jobs);
+    const auto references = selection.references.check(arguments.referenceLimits, jobs);
     const auto specs = validation::withAllPresets(chooseEngines(arguments, selection), ownBinary());
     std::vector<double> timeSteps = selection.timeSteps;
     if (!arguments.timeSteps.empty()) timeSteps.clear();
@@ -215,7 +215,7 @@ int validate(const ValidateArguments& given) {
     options.directory = chooseRunFolder(arguments.out, arguments.resume, selection.title);
     prepareRunFolder(options.directory, arguments.resume);
     options.binary = ownBinary();
-    options.jobs = arguments.jobs > 0 ? arguments.jobs : 1;
+    options.jobs = jobs;
     options.resume = arguments.resume;
     options.audit = !arguments.noAudit;
     options.records = recordedFolder();
@@ -223,7 +223,7 @@ int validate(const ValidateArguments& given) {
     options.pieces = arguments.pieces;
     options.orders = arguments.orders > 0 ? arguments.orders : selection.orders;
     options.referenceLimits = arguments.referenceLimits;
-    options.references = selection.references;
+    options.references = references;
     options.shard = selection.shard;
     options.command = ownCommandLine();
 

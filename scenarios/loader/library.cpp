@@ -5,6 +5,7 @@
 // <folder>/{suites,collision,studies}/*.json.
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #include "scenarios/json/node.hpp"
 #include "scenarios/loader/collision_cases.hpp"
@@ -19,29 +20,43 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A file of the library; nothing if it has no name.
+std::optional<LibraryEntry> entryOf(const fs::path& file) {
+    const Json json = Json::parse(readTextFile(file), nullptr, false);
+    if (!json.is_object() || !json.contains("name") || !json["name"].is_string()) return std::nullopt;
+    return LibraryEntry{json["name"], json.value("title", ""), file};
+}
+
 std::vector<LibraryEntry> entriesOf(const std::vector<fs::path>& folders) {
     std::vector<LibraryEntry> entries;
     for (const fs::path& folder : folders) {
         std::error_code error;
         for (const auto& file : fs::directory_iterator(folder, error)) {
             if (file.path().extension() != ".json") continue;
-            const Json json = Json::parse(readTextFile(file.path()), nullptr, false);
-            if (json.is_object() && json.contains("name") && json["name"].is_string())
-                entries.push_back({json["name"], json.value("title", ""), file.path()});
+            if (auto entry = entryOf(file.path())) entries.push_back(*std::move(entry));
         }
     }
     std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
     return entries;
 }
 
-fs::path findEntry(const std::vector<LibraryEntry>& entries, const std::string& nameOrPath,
+fs::path findEntry(const std::vector<fs::path>& folders, const std::string& nameOrPath,
                    const std::string& kind) {
-    for (const LibraryEntry& entry : entries)
-        if (entry.name == nameOrPath) return entry.file;
     std::error_code error;
-    if (fs::is_regular_file(nameOrPath, error)) return nameOrPath;
+    const bool isFile = fs::is_regular_file(nameOrPath, error);
+    if (isFile && fs::path(nameOrPath).has_parent_path()) return nameOrPath;
+    // Most files are called like their entry: no other one has to be read.
+    for (const fs::path& folder : folders) {
+        const fs::path file = folder / (nameOrPath + ".json");
+        if (!fs::is_regular_file(file, error)) continue;
+        if (const auto entry = entryOf(file); entry && entry->name == nameOrPath) return file;
+    }
     std::vector<std::string> known;
-    for (const LibraryEntry& entry : entries) known.push_back(entry.name);
+    for (const LibraryEntry& entry : entriesOf(folders)) {
+        if (entry.name == nameOrPath) return entry.file;
+        known.push_back(entry.name);
+    }
+    if (isFile) return nameOrPath;
     throw LoadError({{kind + ".not_found", nameOrPath, "", 0, "no " + kind + " or file of this name",
                       "a file, or a name of the library" + didYouMean(nameOrPath, known)}});
 }
@@ -73,17 +88,17 @@ std::vector<LibraryEntry> listStudies() {
     return entriesOf({libraryFolder() / "studies"});
 }
 fs::path findScenario(const std::string& nameOrPath) {
-    return findEntry(entriesOf({libraryFolder() / "2d", libraryFolder() / "3d", libraryFolder() / "bench"}),
-                     nameOrPath, "scenario");
+    return findEntry({libraryFolder() / "2d", libraryFolder() / "3d", libraryFolder() / "bench"}, nameOrPath,
+                     "scenario");
 }
 fs::path findSuite(const std::string& nameOrPath) {
-    return findEntry(listSuites(), nameOrPath, "suite");
+    return findEntry({libraryFolder() / "suites"}, nameOrPath, "suite");
 }
 fs::path findCollisionFile(const std::string& nameOrPath) {
-    return findEntry(listCollisionFiles(), nameOrPath, "collision");
+    return findEntry({libraryFolder() / "collision"}, nameOrPath, "collision");
 }
 fs::path findStudy(const std::string& nameOrPath) {
-    return findEntry(listStudies(), nameOrPath, "study");
+    return findEntry({libraryFolder() / "studies"}, nameOrPath, "study");
 }
 
 bool isSuiteFile(const fs::path& file) {

@@ -57,14 +57,20 @@ results::EngineRow engineRow(const EngineDescription& d) {
 
 }  // namespace
 
-bool isLibraryScenario(const std::string& name, const std::string& text) {
-    try {
-        for (const auto& list : {scenario::listScenarios(), scenario::listBenchScenarios()})
-            for (const auto& entry : list)
-                if (entry.name == name) return scenario::loadScenario(entry.file).text == text;
-    } catch (const std::exception&) {  // an unreadable library: then the stored file is the one to name
+std::map<std::string, bool> inLibrary(const std::vector<results::ScenarioRow>& scenarios) {
+    std::map<std::string, fs::path> files;
+    for (const auto& list : {scenario::listScenarios(), scenario::listBenchScenarios()})
+        for (const auto& entry : list) files.emplace(entry.name, entry.file);
+    std::map<std::string, bool> found;
+    for (const auto& s : scenarios) {
+        const auto file = files.find(s.name);
+        if (file == files.end()) continue;
+        try {
+            found[s.name] = scenario::loadScenario(file->second).text == s.text;
+        } catch (const std::exception&) {  // an unreadable library: then the stored file is the one to name
+        }
     }
-    return false;
+    return found;
 }
 
 std::string reproduceCommand(const CasePlan& plan, const fs::path& run, bool fromLibrary) {

@@ -32,8 +32,8 @@ results::Run runHeader(const std::vector<CasePlan>& plan, const RunOptions& opti
 /// that name, otherwise the file stored with the run is named.
 std::string reproduceCommand(const CasePlan& plan, const std::filesystem::path& run, bool fromLibrary);
 
-/// True if loading `name` from the library gives exactly this text.
-bool isLibraryScenario(const std::string& name, const std::string& text);
+/// Of each scenario: true if loading its name from the library gives exactly its text.
+std::map<std::string, bool> inLibrary(const std::vector<results::ScenarioRow>& scenarios);
 
 /// Writes <run>/scenarios/<name>.json for every scenario of the plan.
 void writeScenarioFiles(const std::vector<CasePlan>& plan, const std::filesystem::path& run);

@@ -110,23 +110,23 @@ std::vector<ReferenceCheck> checkReferences(const std::vector<ReferenceQuestion>
     const ScratchFolder scratch;
     ProcessPool pool(jobs);
     std::vector<ReferenceCheck> checks(queries.size());
+    // A server for one reference would cost more than the start of the program that it saves.
+    const bool isServed =
+        std::count_if(queries.begin(), queries.end(), [](const auto& q) { return q.hasReference; }) > 1;
     for (std::size_t i = 0; i < queries.size(); ++i) {
         if (!queries[i].hasReference) continue;
         const auto request = scratch.path() / (std::to_string(i) + ".json"),
                    answer = scratch.path() / (std::to_string(i) + ".answer.json");
         writeJsonFile(request,
                       {{"text", queries[i].text}, {"name", queries[i].name}, {"answer", answer.string()}});
-        pool.add({{binary.string(), "__reference", request.string()},
-                  {limits.seconds, limits.memoryMiB},
-                  queries[i].name,
-                  [&checks, &limits, i, answer](const ProcessResult& result) {
-                      checks[i] = answered(answer, result, limits);
-                  },
-                  false,
-                  0,
-                  0,
-                  "",
-                  kNoModule});
+        ProcessTask task{{binary.string(), "__reference", request.string()},
+                         {limits.seconds, limits.memoryMiB},
+                         queries[i].name,
+                         [&checks, &limits, i, answer](const ProcessResult& result) {
+                             checks[i] = answered(answer, result, limits);
+                         }};
+        if (isServed) task.module = kNoModule;
+        pool.add(std::move(task));
     }
     const std::atomic<bool> never{false};
     pool.run(never, [](const std::string&) {});

@@ -162,7 +162,7 @@ class RunInProgress {
         }
         writer_.writeHeader(header);
         writeScenarioFiles(plan_, directory_);
-        for (const auto& s : header.scenarios) fromLibrary_[s.name] = isLibraryScenario(s.name, s.text);
+        fromLibrary_ = inLibrary(header.scenarios);
         for (const auto& s : header.scenarios) scenarios_[s.name] = s;
         if (!options_.records.empty()) record_ = Record(options_.records, header.engines);
 

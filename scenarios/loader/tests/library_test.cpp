@@ -4,9 +4,12 @@
 // The scenario library: every file loads, is what its place says, and starts without overlap.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "scenarios/loader/loader.hpp"
@@ -113,6 +116,32 @@ TEST(FindScenario, ByNameByPathAndWithAHint) {
                      "box_stak: found no scenario or file of this name, expected a file, or a name of the "
                      "library; did you mean 'box_stack'? [scenario.not_found]");
     }
+}
+
+/// A name is the one that a file gives itself, wherever it stands and whatever it is called.
+TEST(FindScenario, GoesByTheNameWithinTheFile) {
+    const fs::path folder = fs::path(testing::TempDir()) / ("library-" + std::to_string(getpid()));
+    const auto write = [&](const char* file, const char* name) {
+        fs::create_directories((folder / file).parent_path());
+        std::ofstream(folder / file) << R"({"name": ")" << name << R"(", "title": "a title"})";
+    };
+    write("2d/first.json", "second");
+    write("3d/second.json", "first");
+    write("3d/third.json", "third");
+    write("bench/fourth.json", "fourth");
+    const char* before = getenv("RIGOR_SCENARIOS");
+    const std::string kept = before != nullptr ? before : "";
+    setenv("RIGOR_SCENARIOS", folder.c_str(), 1);
+    EXPECT_EQ(findScenario("first"), folder / "3d/second.json");
+    EXPECT_EQ(findScenario("second"), folder / "2d/first.json");
+    EXPECT_EQ(findScenario("third"), folder / "3d/third.json");
+    EXPECT_EQ(findScenario("fourth"), folder / "bench/fourth.json");
+    EXPECT_THROW((void)findScenario("fifth"), LoadError);
+    if (before != nullptr)
+        setenv("RIGOR_SCENARIOS", kept.c_str(), 1);
+    else
+        unsetenv("RIGOR_SCENARIOS");
+    fs::remove_all(folder);
 }
 
 }  // namespace

@@ -83,6 +83,22 @@ TEST_F(ReferenceGuard, NamesAreReadBack) {
     EXPECT_THROW((void)parseReferenceOutcome("reference_lost"), std::runtime_error);
 }
 
+/// Many are computed at the same time, forked; each gives its own result, in the order of the questions.
+TEST_F(ReferenceGuard, ManyReferencesAreCheckedTogether) {
+    const std::string held = thrownBall("ball"), crashes = ballNaming("double_crashes"),
+                      none = fixtures::crossingBalls(), unknown = ballNaming("no_such_reference");
+    std::vector<ReferenceQuestion> questions;
+    for (const std::string& text : {crashes, held, none, unknown, held, crashes}) {
+        const auto [scenario, stored] = fixtures::load(text);
+        questions.push_back({stored, scenario.name, scenario.reference.has_value()});
+    }
+    std::vector<ReferenceOutcome> outcomes;
+    for (const auto& check : checkReferences(questions, kWide, options().binary, 2))
+        outcomes.push_back(check.outcome);
+    using enum ReferenceOutcome;
+    EXPECT_EQ(outcomes, (std::vector{Crashed, Holds, None, Invalid, Holds, Crashed}));
+}
+
 /// The case is run and stored, and is neither a pass nor the engine's fault.
 TEST_F(ReferenceGuard, ACaseRunsWithoutTheReferenceThatHangs) {
     const auto r = runWith(ballNaming("double_hangs"));
