@@ -315,4 +315,8 @@ double Hdf5File::number(const std::string& path, const char* name) const {
     return value;
 }
 
+void releaseHdf5Memory() {
+    check(H5garbage_collect(), "give back memory");
+}
+
 }  // namespace rigor::results

@@ -59,4 +59,7 @@ class Hdf5File {
     std::unique_ptr<Image> image_;  ///< null when reading
 };
 
+/// Gives back the memory that the library keeps for the files to come.
+void releaseHdf5Memory();
+
 }  // namespace rigor::results

@@ -116,9 +116,11 @@ pid_t forkForParent(const ThreadRecords& thread) {
     return pid;
 }
 
-/// Does what every case would do first: HDF5 makes its tables, and the schema of scenarios is compiled.
+/// Does what every case would do first: HDF5 makes its tables, and the schema of scenarios is compiled. Memory that HDF5
+/// keeps for its next file is given back: a fork would copy it page by page before it clears it.
 void prepareLibraries() {
     (void)results::Hdf5File::create();
+    results::releaseHdf5Memory();
     try {
         scenario::checkScenarioSchema(scenario::parseDocument("{}", ""), "");
     } catch (const scenario::LoadError&) {  // it is no scenario
@@ -126,8 +128,8 @@ void prepareLibraries() {
 }
 
 ForkRequest receiveRequest(int socket) {
-    std::string bytes(kMostBytes, '\0');
-    iovec part{bytes.data(), bytes.size()};
+    static char bytes[kMostBytes];  // of which forks touch no more than the request
+    iovec part{bytes, sizeof bytes};
     alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))];
     msghdr message{};
     message.msg_iov = &part;
@@ -141,9 +143,9 @@ ForkRequest receiveRequest(int socket) {
     if (header == nullptr || header->cmsg_type != SCM_RIGHTS) _exit(n == 0 ? 0 : kExitEnvironment);
     ForkRequest request;
     std::memcpy(&request.output, CMSG_DATA(header), sizeof request.output);
-    std::memcpy(&request.memoryMiB, bytes.data(), sizeof request.memoryMiB);
+    std::memcpy(&request.memoryMiB, bytes, sizeof request.memoryMiB);
     for (auto at = sizeof request.memoryMiB; at < static_cast<std::size_t>(n);) {
-        request.arguments.emplace_back(bytes.c_str() + at);
+        request.arguments.emplace_back(bytes + at);
         at += request.arguments.back().size() + 1;
     }
     return request;
