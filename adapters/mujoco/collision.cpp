@@ -30,6 +30,10 @@ std::string bodyOf(const adapter::PosedShape& side, const adapter::Geometry& sol
            "\" quat=\"" + exact(pose.orientation) + "\"/></body>";
 }
 
+/// Room for the 50 contacts that a pair of geoms has at most, their rows, and the stack that a step of them takes, which
+/// the compiler makes one of. MuJoCo itself would clear 13 MB for each model.
+constexpr const char* kRoom = "<size nconmax=\"100\" njmax=\"250\" nstack=\"150000\"/>";
+
 }  // namespace
 
 adapter::CollisionAnswer MujocoCollisionEngine::collide(const adapter::CollisionQuery& query) const {
@@ -42,8 +46,8 @@ adapter::CollisionAnswer MujocoCollisionEngine::collide(const adapter::Collision
         throw adapter::notInAdapter("mujoco", "collisions of two surfaces without inside");
     std::string assets;
     const std::string bodies = bodyOf(query.a, a, "a", assets) + bodyOf(query.b, b, "b", assets);
-    const ModelOwner model = compile("<mujoco><compiler angle=\"radian\"/><asset>" + assets +
-                                     "</asset><worldbody>" + bodies + "</worldbody></mujoco>");
+    const ModelOwner model = compile(std::string("<mujoco><compiler angle=\"radian\"/>") + kRoom + "<asset>" +
+                                     assets + "</asset><worldbody>" + bodies + "</worldbody></mujoco>");
     const DataOwner data(mj_makeData(model.get()));
     if (const auto* field = std::get_if<scenario::HeightField>(scenario::isStaticOnly(a) ? &a : &b)) {
         const auto heights = elevations(*field);

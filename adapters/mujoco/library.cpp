@@ -48,7 +48,7 @@ void setFilter(mjData& data, const ContactFilterData* filter) {
 ModelOwner compile(const std::string& mjcf) {
     static std::mutex mutex;  // the compiler keeps the last model in a global
     const std::lock_guard lock(mutex);
-    const auto files = std::make_unique<mjVFS>();
+    const auto files = std::make_unique_for_overwrite<mjVFS>();  // 2 MB
     mj_defaultVFS(files.get());
     const char* name = "scenario.xml";
     const int size = static_cast<int>(mjcf.size());
