@@ -54,6 +54,22 @@ int gyroscopicFlags(const std::string& treatment) {
     return 0;  // no gyroscopic torque by Bullet
 }
 
+/// Bullet's own pools of contact manifolds and algorithms, but no larger than the pairs of shapes can fill. Bullet writes
+/// the whole of a pool when it makes it: 4096 of each take longer than many a scene of a few bodies.
+btDefaultCollisionConstructionInfo poolsFor(const Scenario& scenario) {
+    btDefaultCollisionConstructionInfo info;
+    std::size_t shapes = 1;  // that of the ground
+    for (const auto& body : scenario.bodies) shapes += std::max<std::size_t>(1, body.shapes.size());
+    constexpr std::size_t kSpare = 64;  // algorithms of compounds, and those made for a moment
+    const std::size_t most = shapes * shapes + kSpare;
+    const auto bounded = [most](int size) {
+        return static_cast<int>(std::min(most, static_cast<std::size_t>(size)));
+    };
+    info.m_defaultMaxPersistentManifoldPoolSize = bounded(info.m_defaultMaxPersistentManifoldPoolSize);
+    info.m_defaultMaxCollisionAlgorithmPoolSize = bounded(info.m_defaultMaxCollisionAlgorithmPoolSize);
+    return info;
+}
+
 }  // namespace
 
 BulletWorld::BulletWorld(const Scenario& scenario, double dt, const Settings& settings)
@@ -91,7 +107,7 @@ bool BulletWorld::is(const std::string& key, const std::string& value) const {
 }
 
 void BulletWorld::createPipeline() {
-    configuration_ = std::make_unique<btDefaultCollisionConfiguration>();
+    configuration_ = std::make_unique<btDefaultCollisionConfiguration>(poolsFor(scenario_));
     dispatcher_ = std::make_unique<btCollisionDispatcher>(configuration_.get());
     if (is("broadphase", "simple")) {
         broadphase_ = std::make_unique<btSimpleBroadphase>(static_cast<int>(scenario_.bodies.size()) + 1);
