@@ -103,6 +103,8 @@ class AuditQueue {
 
   private:
     struct Batch;
+    /// The queries of a batch are found, or its child failed.
+    void prepared(const std::shared_ptr<Batch>& batch, const ProcessResult& result);
     void startQueries(const std::shared_ptr<Batch>& batch, const std::string& auditor,
                       const std::string& onlyCase);
     void answered(const std::shared_ptr<Batch>& batch, const std::string& auditor,

@@ -71,29 +71,28 @@ void AuditQueue::add(const std::string& scenario, const std::string& scenarioTex
                             {"text", scenarioText},
                             {"cases", absolute},
                             {"answer", batch->queries.string()}});
-    pool_.addNext({{files_.binary.string(), "__audit", request.string()},
-                   kPrepareLimits,
-                   "contact audit: " + scenario,
-                   [this, batch](const ProcessResult& result) {
-                       if (!result.disturbance.empty()) return disturbed_(result.disturbance);
-                       const auto queries = readJsonFile(batch->queries);
-                       if (!result.exitedWith(0) || !queries) {
-                           for (const auto& [id, file] : batch->cases)
-                               deliver_(id, {failedRow("oracle", result)});
-                           return;
-                       }
-                       for (const json& entry : queries->at("cases"))
-                           for (const char* row : {"oracle", kInRun})
-                               batch->rows[entry.at("id")][row] = auditFromJson(entry.at(row));
-                       batch->pending = 1;
-                       for (const auto& auditor : auditors_) startQueries(batch, auditor, "");
-                       finishOne(batch);
-                   },
-                   true,
-                   0,
-                   0,
-                   "",
-                   kNoModule});
+    ProcessTask task{{files_.binary.string(), "__audit", request.string()},
+                     kPrepareLimits,
+                     "contact audit: " + scenario,
+                     [this, batch](const ProcessResult& result) { prepared(batch, result); },
+                     true};
+    task.module = kNoModule;
+    pool_.addNext(std::move(task));
+}
+
+void AuditQueue::prepared(const std::shared_ptr<Batch>& batch, const ProcessResult& result) {
+    if (!result.disturbance.empty()) return disturbed_(result.disturbance);
+    const auto queries = readJsonFile(batch->queries);
+    if (!result.exitedWith(0) || !queries) {
+        for (const auto& [id, file] : batch->cases) deliver_(id, {failedRow("oracle", result)});
+        return;
+    }
+    for (const json& entry : queries->at("cases"))
+        for (const char* row : {"oracle", kInRun})
+            batch->rows[entry.at("id")][row] = auditFromJson(entry.at(row));
+    batch->pending = 1;
+    for (const auto& auditor : auditors_) startQueries(batch, auditor, "");
+    finishOne(batch);
 }
 
 void AuditQueue::startQueries(const std::shared_ptr<Batch>& batch, const std::string& auditor,
@@ -108,17 +107,15 @@ void AuditQueue::startQueries(const std::shared_ptr<Batch>& batch, const std::st
                             {"only", onlyCase},
                             {"answer", answer.string()}});
     ++batch->pending;
-    pool_.addNext({{files_.binary.string(), "__audit", request.string()},
-                   kQueryLimits,
-                   "contact audit: " + batch->scenario + ", " + auditor,
-                   [this, batch, auditor, onlyCase, answer](const ProcessResult& result) {
-                       answered(batch, auditor, onlyCase, result, answer);
-                   },
-                   true,
-                   0,
-                   0,
-                   "",
-                   servedModule(adapter::parseSpec(auditor))});
+    ProcessTask task{{files_.binary.string(), "__audit", request.string()},
+                     kQueryLimits,
+                     "contact audit: " + batch->scenario + ", " + auditor,
+                     [this, batch, auditor, onlyCase, answer](const ProcessResult& result) {
+                         answered(batch, auditor, onlyCase, result, answer);
+                     },
+                     true};
+    task.module = servedModule(adapter::parseSpec(auditor));
+    pool_.addNext(std::move(task));
 }
 
 void AuditQueue::answered(const std::shared_ptr<Batch>& batch, const std::string& auditor,

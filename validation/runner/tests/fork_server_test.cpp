@@ -71,6 +71,17 @@ class Served : public fixtures::RunnerTest {
         EXPECT_EQ(waitpid(child.pid, &status, 0), child.pid) << "it is a child of this process";
         return {said, status};
     }
+    /// A fork that shows its own command and waits for its request, which comes from a pipe to which nobody writes.
+    std::optional<ForkedChild> startWaiting(std::size_t memoryMiB = 0) {
+        if (!fs::exists(request_) && mkfifo(request_.c_str(), 0600) != 0) return std::nullopt;
+        const auto child = start("free_flight", {"__case", request_.string()}, memoryMiB);
+        for (int i = 0; child && i < 500; ++i) {
+            if (bytesOf(folderOf(*child) / "cmdline").find("__case") != std::string::npos) break;
+            usleep(10000);
+        }
+        return child;
+    }
+    static fs::path folderOf(const ForkedChild& child) { return "/proc/" + std::to_string(child.pid); }
     bool isServed(const std::string& name) {
         const auto child = start(name, {"__nothing"});
         if (child) (void)end(*child);
@@ -85,6 +96,7 @@ class Served : public fixtures::RunnerTest {
         return 0;
     }
     std::optional<ForkServers> servers_{std::in_place};
+    const fs::path request_ = scratch_.path() / "request";
 };
 
 TEST_F(Served, AForkIsAChildOfThisProcessWithItsOwnOutput) {
@@ -100,16 +112,11 @@ TEST_F(Served, AForkIsAChildOfThisProcessWithItsOwnOutput) {
 /// A fork shows its own arguments, leads its process group, is marked as an ancestor, has its limit of memory, and dies
 /// alone.
 TEST_F(Served, AForkIsSetUpAsAStartedProgramIs) {
-    const auto pipeFile = scratch_.path() / "pipe";
-    ASSERT_EQ(mkfifo(pipeFile.c_str(), 0600), 0);
-    const auto child =
-        start("free_flight", {"__case", pipeFile.string()}, 512);  // reading the request blocks
+    const auto child = startWaiting(512);
     ASSERT_TRUE(child);
-    const fs::path process = "/proc/" + std::to_string(child->pid);
-    for (int i = 0; i < 500 && bytesOf(process / "cmdline").find("__case") == std::string::npos; ++i)
-        usleep(10000);
+    const fs::path process = folderOf(*child);
     EXPECT_EQ(getpgid(child->pid), child->pid);
-    EXPECT_THAT(bytesOf(process / "cmdline"), HasSubstr(std::string("__case") + '\0' + pipeFile.string()));
+    EXPECT_THAT(bytesOf(process / "cmdline"), HasSubstr(std::string("__case") + '\0' + request_.string()));
     EXPECT_THAT(bytesOf(process / "environ"), HasSubstr(ancestorMark(getpid(), child->pid)));
     EXPECT_THAT(bytesOf(process / "limits"), testing::ContainsRegex("Max address space +536870912 "));
     EXPECT_THAT(bytesOf(process / "limits"), testing::ContainsRegex("Max core file size +0 "));
@@ -121,16 +128,11 @@ TEST_F(Served, AForkIsSetUpAsAStartedProgramIs) {
 
 /// The heaps of started programs are at random addresses; those of forks differ, too.
 TEST_F(Served, ForksHaveTheirHeapsAtRandomAddresses) {
-    const auto pipeFile = scratch_.path() / "pipe";
-    ASSERT_EQ(mkfifo(pipeFile.c_str(), 0600), 0);
     std::set<std::string> heaps;
     for (int k = 0; k < 3; ++k) {
-        const auto child = start("free_flight", {"__case", pipeFile.string()});
+        const auto child = startWaiting();
         ASSERT_TRUE(child);
-        const fs::path process = "/proc/" + std::to_string(child->pid);
-        for (int i = 0; i < 500 && bytesOf(process / "cmdline").find("__case") == std::string::npos; ++i)
-            usleep(10000);
-        const std::string maps = bytesOf(process / "maps");
+        const std::string maps = bytesOf(folderOf(*child) / "maps");
         const auto heap = maps.rfind("[heap]"), line = maps.rfind('\n', heap) + 1;
         ASSERT_NE(heap, std::string::npos);
         heaps.insert(maps.substr(line, maps.find(' ', line) - line));
