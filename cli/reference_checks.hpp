@@ -18,7 +18,7 @@ class ReferenceChecks {
   public:
     /// Loads a scenario as loadWithReference (command.hpp) does, its reference still unknown.
     scenario::LoadedScenario load(const std::string& nameOrFile, const std::vector<std::string>& overrides);
-    /// What became of the references, by name of the scenario (the one that was loaded last), `jobs` of them computed
+    /// Results of the references, by name of the scenario (the one that was loaded last), `jobs` of them computed
     /// at a time. Reports and throws as loadWithReference does.
     std::map<std::string, validation::ReferenceCheck> check(const validation::ReferenceLimits& limits,
                                                             int jobs, bool mustHold = false) const;

@@ -58,7 +58,7 @@ int gyroscopicFlags(const std::string& treatment) {
 /// the whole of a pool when it makes it: 4096 of each take longer than many a scene of a few bodies.
 btDefaultCollisionConstructionInfo poolsFor(const Scenario& scenario) {
     btDefaultCollisionConstructionInfo info;
-    std::size_t shapes = 1;  // that of the ground
+    std::size_t shapes = 1;  // the ground has one
     for (const auto& body : scenario.bodies) shapes += std::max<std::size_t>(1, body.shapes.size());
     constexpr std::size_t kSpare = 64;  // algorithms of compounds, and those made for a moment
     const std::size_t most = shapes * shapes + kSpare;

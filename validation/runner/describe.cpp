@@ -78,7 +78,7 @@ std::optional<ModuleFile> moduleOf(const std::string& engine) {
     return error ? std::nullopt : std::optional(ModuleFile{*path, written});
 }
 
-/// Descriptions of modules that this process has asked for already: a command asks several times.
+/// Descriptions of modules that this process has requested already: a command needs them several times.
 class KnownModules {
   public:
     bool read(const std::string& engine, const std::optional<ModuleFile>& module, EngineDescription& d) {

@@ -32,7 +32,7 @@ results::Run runHeader(const std::vector<CasePlan>& plan, const RunOptions& opti
 /// that name, otherwise the file stored with the run is named.
 std::string reproduceCommand(const CasePlan& plan, const std::filesystem::path& run, bool fromLibrary);
 
-/// Of each scenario: true if loading its name from the library gives exactly its text.
+/// Marks the scenarios whose names, loaded from the library, give exactly their texts.
 std::map<std::string, bool> inLibrary(const std::vector<results::ScenarioRow>& scenarios);
 
 /// Writes <run>/scenarios/<name>.json for every scenario of the plan.

@@ -128,7 +128,7 @@ void prepareLibraries() {
 }
 
 ForkRequest receiveRequest(int socket) {
-    static char bytes[kMostBytes];  // of which forks touch no more than the request
+    static char bytes[kMostBytes];  // Forks touch no more of it than the request.
     iovec part{bytes, sizeof bytes};
     alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))];
     msghdr message{};

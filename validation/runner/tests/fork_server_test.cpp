@@ -71,7 +71,7 @@ class Served : public fixtures::RunnerTest {
         EXPECT_EQ(waitpid(child.pid, &status, 0), child.pid) << "it is a child of this process";
         return {said, status};
     }
-    /// A fork that shows its own command and waits for its request, which comes from a pipe to which nobody writes.
+    /// A fork that shows its own command and waits for its request at a pipe that has no writer.
     std::optional<ForkedChild> startWaiting(std::size_t memoryMiB = 0) {
         if (!fs::exists(request_) && mkfifo(request_.c_str(), 0600) != 0) return std::nullopt;
         const auto child = start("free_flight", {"__case", request_.string()}, memoryMiB);
