@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 
 #include "adapters/interface/capability_fields.hpp"
 #include "validation/runner/answer.hpp"
-#include "validation/runner/fork_server.hpp"
 #include "validation/runner/process_pool.hpp"
 #include "validation/runner/start_program.hpp"
 
@@ -61,43 +58,6 @@ void readDescription(const json& j, EngineDescription& d) {
     for (const json& p : j.at("presets"))
         d.presets.push_back({p.at("name"), p.at("values").get<std::map<std::string, std::string>>()});
 }
-
-/// A module as it lies on the disk.
-struct ModuleFile {
-    std::filesystem::path path;
-    std::filesystem::file_time_type written;
-    bool operator==(const ModuleFile&) const = default;
-};
-
-/// The module of an engine; nothing for guests, whose programs may change unseen, and for engines that are not installed.
-std::optional<ModuleFile> moduleOf(const std::string& engine) {
-    std::error_code error;
-    const auto path = servedModule(adapter::parseSpec(engine));
-    if (!path) return std::nullopt;
-    const auto written = std::filesystem::last_write_time(*path, error);
-    return error ? std::nullopt : std::optional(ModuleFile{*path, written});
-}
-
-/// Descriptions of modules that this process has requested already: a command needs them several times.
-class KnownModules {
-  public:
-    bool read(const std::string& engine, const std::optional<ModuleFile>& module, EngineDescription& d) {
-        const std::lock_guard lock(mutex_);
-        const auto it = known_.find(engine);
-        if (!module || it == known_.end() || it->second.first != *module) return false;
-        d = it->second.second;
-        return true;
-    }
-    void keep(const std::string& engine, const std::optional<ModuleFile>& module,
-              const EngineDescription& d) {
-        const std::lock_guard lock(mutex_);
-        if (module) known_[engine] = {*module, d};
-    }
-
-  private:
-    std::mutex mutex_;
-    std::map<std::string, std::pair<ModuleFile, EngineDescription>> known_;
-};
 
 /// The engine that resolveSettings reads, made from its description: the library stays out of this process.
 class DescribedEngine final : public adapter::EngineWithPresets {
@@ -158,22 +118,18 @@ std::vector<EngineDescription> describeEngines(const std::vector<std::string>& e
                                                const std::filesystem::path& binary, int jobs) {
     const ScratchFolder scratch;
     ProcessPool pool(jobs);
-    static KnownModules known;
     std::vector<EngineDescription> descriptions(engines.size());
     for (std::size_t i = 0; i < engines.size(); ++i) {
         EngineDescription& d = descriptions[i];
         d.info.name = adapter::parseSpec(engines[i]).engine;
-        const auto module = moduleOf(engines[i]);
-        if (known.read(engines[i], module, d)) continue;
         const auto answer = scratch.path() / (std::to_string(i) + ".json");
         pool.add({{binary.string(), "__describe", engines[i], answer.string()},
                   kDescribeLimits,
                   engines[i],
-                  [&d, answer, module, engine = engines[i]](const ProcessResult& result) {
+                  [&d, answer](const ProcessResult& result) {
                       const auto reply = readJsonFile(answer);
                       if (result.exitedWith(0) && reply) {
                           readDescription(*reply, d);
-                          known.keep(engine, module, d);
                           return;
                       }
                       d.problem = result.timedOut ? "no result within the time limit" : result.ending();

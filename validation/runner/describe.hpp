@@ -20,7 +20,7 @@ int describeChild(const std::string& engine, const std::filesystem::path& answer
 /// engine that could not be loaded.
 std::string capabilitiesText(const EngineDescription& description);
 
-/// Describes several engines, `jobs` at a time; a module that it has described again only if its file has changed.
+/// Describes several engines, `jobs` at a time.
 std::vector<EngineDescription> describeEngines(const std::vector<std::string>& engines,
                                                const std::filesystem::path& binary, int jobs);
 
