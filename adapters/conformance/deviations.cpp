@@ -49,6 +49,7 @@ constexpr Deviation kDeviations[] = {
     {"planck", "", "default", 2, "contact_within_face", 0.025, "faces are clipped with their skins"},
     {"planck", "", "default", 2, "perch_box", 0.01,
      "circle and polygon skins of 0.01 m less 0.005 m of slop"},
+    {"planck", "", "default", 2, "perch_capsule", 0.01, "circle and polygon skins of 0.01 m less slop"},
     {"planck", "", "default", 2, "perch_polygon", 0.01,
      "circle and polygon skins of 0.01 m less 0.005 m of slop"},
     {"box2d3", "", "", 2, "fixed_sag", 6e-3, "weld joints are soft constraints: 5.6 mm at 1 m and 2 kg"},

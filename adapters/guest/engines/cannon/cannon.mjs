@@ -21,7 +21,7 @@ const capabilities = {
     dimensions: [3],
     planar: true,
     shapes: [
-        ...['sphere', 'box', 'cylinder', 'cone', 'hull', 'half_space', 'triangle_mesh', 'height_field'],
+        ...['sphere', 'box', 'capsule', 'cylinder', 'cone', 'hull', 'half_space', 'triangle_mesh', 'height_field'],
         ...['circle', 'polygon', 'half_plane'],
     ],
     joints: [
@@ -36,7 +36,6 @@ const capabilities = {
     contact_filters: true,
     shape_filters: true,
     library_lacks: {
-        capsule: shapeTypes,
         ellipsoid: shapeTypes,
         slider: constraints,
         wheel: constraints,

@@ -27,6 +27,10 @@ export function ledgerOf({ scenario, settings }) {
     const has = (...names) => scenario.bodies.some((body) => body.shapes.some(({ shape }) => names.includes(shape)));
     if (has('cylinder', 'cone'))
         lines.push(rg.approximate('round_shapes', 'round', `${settings.segments} sides`, 'they are convex polyhedra'));
+    if (has('capsule')) {
+        const middle = scenario.planar ? 'a box' : `a cylinder of ${settings.segments} sides`;
+        lines.push(rg.approximate('capsule', 'one shape', `${middle} and two balls`, 'the library has none; contacts come from every part'));
+    }
     if (scenario.joints.length > 0)
         lines.push(
             rg.approximate('joint_softness', 'rigid', `${settings.joint_stiffness} N/m`, 'joints are springs and dampers'),

@@ -53,15 +53,21 @@ const builders = {
     height_field: (s, _segments, user) => heightField(s, user),
 };
 
-/** A shape of the library with its pose in the frame of its body. */
-export function shapeOf(given, segments, user) {
-    const made = builders[given.shape](given, segments, user);
-    const { shape, position = [0, 0, 0], orientation = unturned } = made;
-    return {
+/** A ball at either end of a cylinder; in the plane that is a box, whose sides are straight. */
+function capsule({ radius, half_length }, segments, planar) {
+    const middle = planar ? { shape: 'box', half_extents: [radius, half_length, radius] } : { shape: 'cylinder', radius, half_length };
+    const ends = [half_length, -half_length].map((y) => ({ shape: new Sphere(radius), position: [0, y, 0] }));
+    return [builders[middle.shape](middle, segments), ...ends];
+}
+
+/** Shapes of the library that make one of the format's, with their poses in the frame of its body. */
+export function shapesOf(given, { segments, planar, user }) {
+    const parts = given.shape === 'capsule' ? capsule(given, segments, planar) : [builders[given.shape](given, segments, user)];
+    return parts.map(({ shape, position = [0, 0, 0], orientation = unturned }) => ({
         shape,
         position: rg.sum(given.position, rg.rotate(given.orientation, position)),
         orientation: rg.quaternionProduct(given.orientation, orientation),
-    };
+    }));
 }
 
 /** Triangle meshes touch spheres alone. */

@@ -12,7 +12,7 @@ import { addJoints } from '../shared/joints.mjs';
 import { contactRows } from './contacts.mjs';
 import { jointOf, reactionOf } from './joints.mjs';
 import { ledgerOf } from './ledger.mjs';
-import { refuseUntouched, shapeOf } from './shapes.mjs';
+import { refuseUntouched, shapesOf } from './shapes.mjs';
 import { fromCannon, quatFromCannon, quatToCannon, toCannon } from './vectors.mjs';
 
 const kTypes = { static: Body.STATIC, kinematic: Body.KINEMATIC, dynamic: Body.DYNAMIC };
@@ -102,18 +102,20 @@ export class CannonWorld extends rg.World {
         const { center, axes } = this.frames[index];
         created.collisionFilterGroup = 0;
         created.collisionFilterMask = 0;
+        const how = { segments: Number(this.settings.segments), planar: this.scenario.planar, user: `body '${body.name}'` };
         body.shapes.forEach((given, k) => {
-            const made = shapeOf(given, Number(this.settings.segments), `body '${body.name}'`);
             const { category, mask } = this.bits(given);
-            made.shape.collisionFilterGroup = category;
-            made.shape.collisionFilterMask = mask;
             created.collisionFilterGroup |= category;
             created.collisionFilterMask |= mask;
-            made.shape.material = this.materials[given.material];
-            const offset = rg.rotateBack(axes, rg.difference(made.position, center));
-            const turn = rg.quaternionProduct(rg.conjugate(axes), made.orientation);
-            created.addShape(made.shape, toCannon(offset), quatToCannon(turn));
-            this.owners.set(made.shape, k);
+            for (const { shape, position, orientation } of shapesOf(given, how)) {
+                shape.collisionFilterGroup = category;
+                shape.collisionFilterMask = mask;
+                shape.material = this.materials[given.material];
+                const offset = rg.rotateBack(axes, rg.difference(position, center));
+                const turn = rg.quaternionProduct(rg.conjugate(axes), orientation);
+                created.addShape(shape, toCannon(offset), quatToCannon(turn));
+                this.owners.set(shape, k);
+            }
         });
     }
 

@@ -37,12 +37,13 @@ export class Contacts {
         const pair = this.coefficients(shapeA.material, shapeB.material);
         contact.setFriction(pair.friction);
         contact.setRestitution(pair.restitution);
-        const radii = [contact.getFixtureA(), contact.getFixtureB()].map((fixture) => fixture.getShape().getRadius());
+        const parts = [contact.getFixtureA().getShape(), contact.getFixtureB().getShape()];
+        const radii = parts.map((part) => part.getRadius());
         const manifold = contact
             .getManifold()
             .getWorldManifold(null, this.starts[a[0]], radii[0], this.starts[b[0]], radii[1]);
         const normal = [manifold.normal.x, manifold.normal.y, 0];
-        const skins = [skinOf(shapeA), skinOf(shapeB)];
+        const skins = parts.map(skinOf);
         if (manifold.pointCount > 0) contact.setTangentSpeed(this.surfaceSpeed([a, b], manifold));
         const points = [];
         for (let k = 0; k < manifold.pointCount; ++k) {

@@ -25,7 +25,10 @@ export function ledgerOf({ scenario, settings, reach }) {
             ? rg.approximate('sleeping', 'off', 'on', 'bodies at rest are stopped')
             : rg.exact('sleeping', 'off'),
     );
-    if (scenario.bodies.some((body) => body.shapes.some((shape) => shape.shape === 'half_plane')))
+    const has = (name) => scenario.bodies.some((body) => body.collides && body.shapes.some(({ shape }) => shape === name));
+    if (has('capsule'))
+        lines.push(rg.approximate('capsule', 'one shape', 'a rectangle and two circles', 'the library has none; contacts may come twice where the parts meet'));
+    if (has('half_plane'))
         lines.push(rg.approximate('half_plane', 'unbounded', `a box of side ${2 * reach} m`, 'the library has no half-plane'));
     if (scenario.joints.some(({ axes }) => axes.some((axis) => axis.stiffness > 0)))
         lines.push(

@@ -13,7 +13,7 @@ const { version } = JSON.parse(readFileSync(manifest));
 const capabilities = {
     dynamics: true,
     dimensions: [2],
-    shapes: ['circle', 'box', 'polygon', 'half_plane', 'segment', 'chain'],
+    shapes: ['circle', 'box', 'capsule', 'polygon', 'half_plane', 'segment', 'chain'],
     joints: [
         ...['hinge', 'hinge.limit', 'hinge.motor', 'slider', 'slider.limit', 'slider.motor', 'fixed'],
         ...['distance', 'distance.limit', 'distance.spring', 'wheel', 'wheel.motor', 'wheel.spring'],
@@ -30,7 +30,6 @@ const capabilities = {
     shape_filters: true,
     library_lacks: {
         '3D': 'README.md of planck: "2D JavaScript Physics Engine"',
-        capsule: 'planck.d.ts, classes derived from Shape: box, chain, circle, edge, polygon',
         'hinge.spring': 'planck.d.ts, interface RevoluteJointOpt: limits and a motor',
         'slider.spring': 'planck.d.ts, interface PrismaticJointOpt: limits and a motor',
         'distance.motor': 'planck.d.ts, interface DistanceJointOpt: length and softness',

@@ -6,8 +6,20 @@ import * as rg from '../../sdk/rigor_guest.mjs';
 export const toPlanck = ([x, y]) => ({ x, y });
 export const angleOf = ([w, , , z]) => 2 * Math.atan2(z, w);
 
-/** A shape of the library, placed in its body. */
-export function shapeOf(shape, reach, user) {
+/** A rectangle and a circle at either end, whose line is the shape's y. */
+function capsule({ radius, half_length }, place, angle) {
+    const ends = [half_length, -half_length].map((y) => new CircleShape(toPlanck(place([0, y, 0])), radius));
+    return [new BoxShape(radius, half_length, toPlanck(place([0, 0, 0])), angle), ...ends];
+}
+
+/** Shapes of the library that make one of the format's, placed in its body. */
+export function shapesOf(shape, reach, user) {
+    if (shape.shape !== 'capsule') return [shapeOf(shape, reach, user)];
+    const place = (p) => rg.sum(shape.position, rg.rotate(shape.orientation, p));
+    return capsule(shape, place, angleOf(shape.orientation));
+}
+
+function shapeOf(shape, reach, user) {
     const place = (p) => rg.sum(shape.position, rg.rotate(shape.orientation, p));
     switch (shape.shape) {
         case 'circle':
@@ -35,5 +47,5 @@ export function shapeOf(shape, reach, user) {
     }
 }
 
-/** Half of the library's skin, which lies outside of a shape. */
-export const skinOf = (shape) => (shape.shape === 'circle' ? 0 : Settings.polygonRadius);
+/** The library's skin of one of its shapes, which lies outside of it. */
+export const skinOf = (shape) => (shape.getType() === 'circle' ? 0 : Settings.polygonRadius);

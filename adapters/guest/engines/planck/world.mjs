@@ -11,7 +11,7 @@ import { reachOf } from '../shared/reach.mjs';
 import { Contacts } from './contacts.mjs';
 import { jointOf } from './joints.mjs';
 import { ledgerOf } from './ledger.mjs';
-import { angleOf, shapeOf, toPlanck } from './shapes.mjs';
+import { angleOf, shapesOf, toPlanck } from './shapes.mjs';
 
 const quaternionOf = (angle) => [Math.cos(0.5 * angle), 0, 0, Math.sin(0.5 * angle)];
 const fromPlanck = ({ x, y }) => [x, y, 0];
@@ -71,13 +71,14 @@ export class PlanckWorld extends rg.World {
         });
         if (body.collides)
             body.shapes.forEach((shape, k) => {
-                created.createFixture(shapeOf(shape, this.reach, `body '${body.name}'`), {
+                const traits = {
                     density: 0,
                     filterCategoryBits: shape.filter.layers,
                     filterMaskBits: shape.filter.collides_with,
                     filterGroupIndex: shape.filter.group,
                     userData: [index, k],
-                });
+                };
+                for (const part of shapesOf(shape, this.reach, `body '${body.name}'`)) created.createFixture(part, traits);
             });
         if (body.type === 'dynamic') {
             const center = body.center_of_mass;
