@@ -92,6 +92,25 @@ class Build : public DynamicsTest {
 INSTANTIATE_TEST_SUITE_P(Kit, Build, testing::ValuesIn(dynamicsArenas()), arenaName);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Build);
 
+/// Libraries that add shapes one by one reckon the inertia anew with each of them.
+TEST_P(Build, InertiaIsTheGivenOneWithManyShapes) {
+    if (!hasShape(is2d() ? "circle" : "sphere")) GTEST_SKIP() << "no balls";
+    Scenario s = scene();
+    const int b = addBody(s, ball(0.02), {0.1, 0, 0}, 1.5, {0.05, 0.08, 0.05});
+    Body& body = s.bodies[b];
+    for (int k = 1; k < 12; ++k) {
+        const double angle = 0.2 + k * 0.5236;
+        const Vec3 around =
+            is2d() ? Vec3{std::cos(angle), std::sin(angle), 0} : Vec3{std::cos(angle), 0.2, std::sin(angle)};
+        body.shapes.push_back({ball(0.02), {0.1 * around, {}}, 0});
+    }
+    const auto read = build(s, 0.01)->readBack().bodies[b];
+    for (int r = is2d() ? 2 : 0; r < 3; ++r)
+        for (int c = is2d() ? 2 : 0; c < 3; ++c)
+            EXPECT_NEAR(read.inertia(r, c), body.massProperties.inertia(r, c), tol(1e-13, 1e-7))
+                << r << "," << c;
+}
+
 TEST_P(Build, ReadBackIsTheScenario) {
     Scenario s = scene(0.3, 0.2);
     s.gravity = {0.5, -9.81, 0.0};

@@ -99,8 +99,15 @@ export class RapierWorld extends rg.World {
         if (body.type !== 'static')
             desc.setLinvel(...space.components(body.velocity)).setAngvel(space.turn(body.angular_velocity));
         const created = this.world.createRigidBody(desc);
-        created.recomputeMassPropertiesFromColliders(); // otherwise done in the first step
-        if (!body.collides) return created;
+        if (body.collides) this.addColliders(created, body, index, frame);
+        // Otherwise done in the first step; and every collider that is added turns the axes of the moments a little, in single
+        // precision, until it is.
+        created.recomputeMassPropertiesFromColliders();
+        return created;
+    }
+
+    addColliders(created, body, index, frame) {
+        const { space } = this;
         body.shapes.forEach((shape, k) => {
             const { layers, collides_with } = shape.filter;
             const rules = space.RAPIER.CoefficientCombineRule;
@@ -113,7 +120,6 @@ export class RapierWorld extends rg.World {
             else collider.setCollisionGroups(((layers & 0xffff) << 16) | (collides_with & 0xffff));
             this.owners.set(this.world.createCollider(collider, created).handle, [index, k]);
         });
-        return created;
     }
 
     /** Rapier's orientation of a body for one of the scenario's. */
