@@ -82,7 +82,6 @@ constexpr Deviation kDeviations[] = {
      "native convex collision misses balls on the axis of a cubic mesh"},
     {"mujoco3", "", "matched", 0, "pair_restitution", 0.05, "bounces are springs of ten time steps"},
     {"mujoco3", "", "default", 0, "hinge_limit_beyond", 0.015, "limits are soft: 0.02 s"},
-    {"mujoco3", "", "default", 0, "six_dof_limit", 0.015, "limits are soft: 0.02 s"},
     {"mujoco3", "", "", 0, "joint_momentum", 0.02,
      "joints are coordinates: Euler's step of them turns momentum"},
     {"mujoco3", "", "default", 0, "rolling_friction", 0.25, "friction is soft"},

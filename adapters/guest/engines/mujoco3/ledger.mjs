@@ -30,7 +30,7 @@ export function ledgerOf({ scenario, settings, text, dt }) {
     if (scenario.bodies.some((body) => body.type === 'kinematic'))
         lines.push(rg.approximate('kinematic_bodies', 'unmoved', 'heavy and set to their motion after each step', "the library's own mocap bodies have no velocity in contacts"));
     if (text.motors.length > 0)
-        lines.push(rg.approximate('motors', 'held exactly', 'a servo of the speed with a bound', 'the gain is the inertia at the start by the time step'));
+        lines.push(rg.approximate('motors', 'speed and greatest force', 'a force set at the start of each step, bounded', 'what else acts on the coordinate in the step is not counted'));
     if (integrator === 'RK4') lines.push(rg.approximate('impulses', 'reported', 'not reported', "RK4's last stage is not at the start of the step"));
     lines.push(...ledgerOfBreaking(scenario, 'forces of equalities (efc_force)'));
     const curved = scenario.bodies.some((body) => body.shapes.some(({ shape }) => shape === 'height_field'));

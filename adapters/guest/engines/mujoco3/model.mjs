@@ -293,8 +293,8 @@ export class ModelText {
         const worldbody = element('worldbody', {}, [...(this.sites.get(-1) ?? []), ...this.bodiesOn(-1)]);
         const pairs = [...this.excludes(), ...this.explicitPairs()];
         // A ball's gear is the axis in its body about which it is turned.
-        const motors = this.motors.map(({ joint, tendon, gear, most }) =>
-            element('velocity', { joint, tendon, gear: gear && [...gear, 0, 0, 0], kv: 1, forcelimited: 'true', forcerange: [-most, most] }),
+        const motors = this.motors.map(({ joint, tendon, gear }) =>
+            element('motor', { joint, tendon, gear: gear && [...gear, 0, 0, 0] }),
         );
         const { integrator, solver, cone, iterations, tolerance, noslip_iterations, impratio } = settings;
         const flags = { autoreset: 'disable', filterparent: 'disable', nativeccd: settings.native_ccd === 'on' ? 'enable' : 'disable' };

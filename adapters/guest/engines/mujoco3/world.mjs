@@ -12,8 +12,6 @@ import { restitutionIn } from './restitution.mjs';
 
 const kBody = M.mjtObj.mjOBJ_BODY.value;
 const kGeom = M.mjtObj.mjOBJ_GEOM.value;
-const kTendon = M.mjtObj.mjOBJ_TENDON.value;
-const kJoint = M.mjtObj.mjOBJ_JOINT.value;
 const kWhole = M.mjtState.mjSTATE_INTEGRATION.value;
 const kSchemes = { RK4: 'rk4', Euler: 'symplectic_euler', implicit: 'symplectic_euler', implicitfast: 'symplectic_euler' };
 const kFree = M.mjtJoint.mjJNT_FREE.value;
@@ -38,7 +36,7 @@ export class MujocoWorld extends rg.World {
         this.breaking = breakingOf(this);
         this.nameGeoms();
         this.setInertias();
-        this.setMotors();
+        this.answer = new M.DoubleBuffer(Math.max(1, this.model.nv));
         this.setScales();
         this.damped = scenario.bodies.some((b) => b.linear_velocity_kept !== 1 || b.angular_velocity_kept !== 1);
         const row = ({ position, orientation, velocity, angular_velocity: w }) => [...position, ...orientation, ...velocity, ...w];
@@ -61,24 +59,30 @@ export class MujocoWorld extends rg.World {
         M.mj_setConst(this.model, this.data);
     }
 
-    /** A motor is a servo of the speed, whose gain stops the coordinate's own inertia in one step, with its bound. */
+    /**
+     * A motor without load reaches its speed in a step that its force allows: the force is the missing speed over the step, by
+     * what a unit of force does to the coordinate's own rate in the pose of the step.
+     */
     setMotors() {
-        const { model, data } = this;
-        this.text.motors.forEach(({ joint, tendon, gear, speed }, k) => {
-            const gain = this.inertiaOf(joint, tendon, gear) / this.dt;
-            const width = model.actuator_gainprm.length / model.nu;
-            model.actuator_gainprm[width * k] = gain;
-            model.actuator_biasprm[width * k + 2] = -gain;
-            data.ctrl[k] = speed;
+        const { model, data, text } = this;
+        if (text.motors.length === 0) return;
+        for (const part of [M.mj_kinematics, M.mj_comPos, M.mj_tendon, M.mj_transmission, M.mj_makeM, M.mj_factorM]) part(model, data);
+        text.motors.forEach(({ speed, most }, k) => {
+            const moment = this.momentOf(k);
+            M.mj_solveM(model, data, this.answer, moment);
+            const along = (other) => moment.reduce((sum, x, i) => sum + x * other[i], 0);
+            const wanted = (speed - along(data.qvel)) / (along(this.answer.GetView()) * this.dt);
+            data.ctrl[k] = Math.max(-most, Math.min(most, wanted));
         });
     }
 
-    /** Of a coordinate at the start: of a joint, of a ball about `gear`, or of a tendon's length. */
-    inertiaOf(joint, tendon, gear) {
-        const { model } = this;
-        if (tendon) return 1 / model.tendon_invweight0[M.mj_name2id(model, kTendon, tendon)];
-        const dof = model.jnt_dofadr[M.mj_name2id(model, kJoint, joint)];
-        return gear ? gear.reduce((sum, x, i) => sum + x * x * model.dof_M0[dof + i], 0) : model.dof_M0[dof];
+    /** What a unit of an actuator's control does to the forces of the coordinates; the library keeps rows of what is not zero. */
+    momentOf(actuator) {
+        const { model, data } = this;
+        const moment = new Array(model.nv).fill(0);
+        const start = data.moment_rowadr[actuator];
+        for (let k = start; k < start + data.moment_rownnz[actuator]; ++k) moment[data.moment_colind[k]] = data.actuator_moment[k];
+        return moment;
     }
 
     /** The solver's tolerance is relative to the mean inertia, which the heavy kinematic bodies must not be part of. */
@@ -221,6 +225,7 @@ export class MujocoWorld extends rg.World {
     }
 
     step() {
+        this.setMotors();
         if (this.settings.integrator === 'RK4') this.starts = this.contactsAtStart();
         const start = performance.now();
         M.mj_step(this.model, this.data);
@@ -352,6 +357,7 @@ export class MujocoWorld extends rg.World {
         return ledgerOf(this);
     }
     destroy() {
+        this.answer.delete();
         this.data.delete();
         this.model.delete();
     }
