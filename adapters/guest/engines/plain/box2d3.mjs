@@ -6,11 +6,35 @@ const B = await init();
 
 export const engine = 'box2d3:preset=default';
 export const bound = 2e-5; // single precision
-export const scenes = ['bouncing_disc_2d', 'backspin_2d', 'box_stack_2d'];
+export const scenes = ['hanging_chain_mode_2d', 'bouncing_disc_2d', 'backspin_2d', 'box_stack_2d'];
 
 const vector = ([x, y]) => new B.b2Vec2(x, y);
 
-export function start({ gravity, dt, friction, restitution, bodies }) {
+function rotation(angle) {
+    const turned = new B.b2Rot();
+    Object.assign(turned, { c: Math.cos(angle), s: Math.sin(angle) });
+    return turned;
+}
+
+/** Frames of a joint have the axes of the world at the start. */
+function addHinge(world, { anchorA, anchorB }, [a, angleA], [b, angleB]) {
+    const def = B.b2DefaultRevoluteJointDef();
+    const base = def.base;
+    base.bodyIdA = a;
+    base.bodyIdB = b;
+    const place = (key, anchor, angle) => {
+        const frame = new B.b2Transform();
+        frame.p = vector(anchor);
+        frame.q = rotation(-angle);
+        base[key] = frame;
+    };
+    place('localFrameA', anchorA, angleA);
+    place('localFrameB', anchorB, angleB);
+    def.base = base;
+    B.b2CreateRevoluteJoint(world, def);
+}
+
+export function start({ gravity, dt, friction, restitution, bodies, joints }) {
     const worldDef = B.b2DefaultWorldDef();
     worldDef.gravity = vector(gravity);
     const world = B.b2CreateWorld(worldDef);
@@ -20,7 +44,14 @@ export function start({ gravity, dt, friction, restitution, bodies }) {
         def.position = vector(b.position);
         def.linearVelocity = vector(b.velocity);
         def.angularVelocity = b.spin;
+        def.rotation = rotation(b.angle);
         const body = B.b2CreateBody(world, def);
+        if (!b.collides) {
+            const data = new B.b2MassData();
+            Object.assign(data, { mass: b.mass, center: new B.b2Vec2(0, 0), rotationalInertia: b.inertia });
+            B.b2Body_SetMassData(body, data);
+            return body;
+        }
         const shapeDef = B.b2DefaultShapeDef();
         const material = shapeDef.material;
         Object.assign(material, { friction, restitution });
@@ -36,6 +67,9 @@ export function start({ gravity, dt, friction, restitution, bodies }) {
         }
         return body;
     });
+    const outside = () => B.b2CreateBody(world, B.b2DefaultBodyDef());
+    const sideOf = (k) => (k < 0 ? [outside(), 0] : [made[k], bodies[k].angle]);
+    for (const joint of joints) addHinge(world, joint, sideOf(joint.a), sideOf(joint.b));
     return {
         step: () => B.b2World_Step(world, dt, 4),
         positions: () => made.map((body) => B.b2Body_GetPosition(body)).map(({ x, y }) => [x, y, 0]),

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Runs the plain programs of this folder, and the same scenes through the guests; both must place every body alike in
-// every step. Arguments: the program `rigor`, and names of engines (default: all whose libraries are installed).
+// every step. What a program says beyond that (`findings`) has to hold. Arguments: the program `rigor`, and names of
+// engines (default: all whose libraries are installed).
 // Exits with 77 where no library is installed.
 import { spawnSync } from 'node:child_process';
 import { existsSync } from 'node:fs';
@@ -16,7 +17,7 @@ if (!existsSync(modules)) process.exit(77);
 /** Rows of `rigor run --csv`: for every step the positions of the bodies. */
 function throughTheGuest(scene, engine) {
     // Its exit code says how well the engine did.
-    const { stdout: out } = spawnSync(rigor, ['run', scene.name, '--engine', engine, '--dt', '1/60', '--csv', '-'], {
+    const { stdout: out } = spawnSync(rigor, ['run', scene.name, '--engine', engine, '--dt', String(scene.dt), '--csv', '-'], {
         maxBuffer: 1 << 28,
         stdio: ['ignore', 'pipe', 'inherit'],
         encoding: 'utf8',
@@ -52,6 +53,10 @@ for (const name of named.length > 0 ? named : engines) {
         const isAlike = guest.length > 1 && distance <= program.bound;
         failed += isAlike ? 0 : 1;
         console.log(`${isAlike ? 'alike ' : 'DIFFER'} ${name} ${each}: ${distance.toExponential(1)} m in ${guest.length - 1} steps`);
+    }
+    for (const [sentence, holds] of program.findings?.(read) ?? []) {
+        failed += holds ? 0 : 1;
+        console.log(`${holds ? 'holds ' : 'FAILS '} ${name}: ${sentence}`);
     }
 }
 process.exit(failed > 0 ? 1 : 0);
