@@ -4,7 +4,10 @@
 // Rapier's package in 2D, as shared/rapier_world.mjs needs it.
 import RAPIER from '@dimforge/rapier2d-compat';
 import * as rg from '../../sdk/rigor_guest.mjs';
+import { planarJoint } from '../shared/planar_six_dof.mjs';
 import { distanceData, drive } from '../shared/rapier_joints.mjs';
+
+export const kinds = 'dynamics/impulse_joint.d.ts, class JointData in 2D: fixed, spring, rope, revolute, prismatic';
 
 const toRapier = ([x, y]) => ({ x, y });
 const fromVector = ({ x, y }) => [x, y, 0];
@@ -31,7 +34,9 @@ export const space = {
     fromTurn: (rate) => [0, 0, rate],
     frameOf: (body) => body.orientation,
 
-    addJoint(world, joint, a, b) {
+    addJoint(world, given, a, b) {
+        const joint = planarJoint(given, kinds);
+        if (joint.type === 'wheel') throw new rg.Unsupported('a six_dof with a travel and an angle', kinds, `joint '${joint.name}'`);
         const created = world.createImpulseJoint(dataOf(joint, a, b), a.body, b.body, true);
         created.setContactsEnabled(joint.collide_connected);
         drive(RAPIER, created, joint);
