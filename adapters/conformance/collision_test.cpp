@@ -166,6 +166,21 @@ TEST_P(Collision, ContactsNeverExceedTheRequest) {
     }
 }
 
+TEST_P(Collision, TheOtherDimensionIsRefusedOrAnsweredRight) {
+    adapter::CollisionQuery query;
+    query.dimension = 5 - dimension();
+    const bool flat = query.dimension == 2;
+    const Geometry box = Box{{0.5, 0.5, flat ? 0.0 : 0.5}};
+    query.a = {&box, {}};
+    query.b = {&box, {{0.95, 0.1, flat ? 0.0 : 2.0}, {}}};
+    try {
+        const auto answer = engine().collision()->collide(query);
+        EXPECT_EQ(answer.overlap, flat);
+        for (const ContactPoint& c : answer.contacts) EXPECT_NEAR(std::abs(c.normal.x), 1.0, 1e-3);
+    } catch (const adapter::Unsupported&) {
+    }
+}
+
 TEST_P(Collision, CoincidingBallsDoNotInventADirectionThatIsNoUnitVector) {
     const Geometry ball = Sphere{0.5};
     adapter::CollisionQuery query;

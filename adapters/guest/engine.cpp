@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The remote engine: whatever guest a manifest names, as an engine like any other.
+#include <algorithm>
 #include <atomic>
+#include <tuple>
 #include <utility>
 
 #include "adapters/guest/description.hpp"
@@ -52,6 +54,7 @@ class GuestEngine final : public EngineWithPresets, public DynamicsEngine, publi
 
     CollisionAnswer collide(const CollisionQuery& query) const override {
         checkQueryInput(query);
+        requireDimension(query.dimension);
         for (const PosedShape* side : {&query.a, &query.b}) requireShape(*side, query.dimension);
         Frame frame;
         frame.header["dimension"] = query.dimension;
@@ -64,15 +67,28 @@ class GuestEngine final : public EngineWithPresets, public DynamicsEngine, publi
 
   private:
     std::unique_ptr<World> buildOnce(const Scenario& scenario, double dt, const Settings& settings) const {
-        const auto& dimensions = description_.capabilities.dimensions;
-        const bool planar =
-            std::find(dimensions.begin(), dimensions.end(), scenario.dimension) == dimensions.end();
+        const bool planar = !hasDimension(scenario.dimension);
         const Scenario sent = withStiffness(scenario);
         Frame request;
         request.header["dt"] = dt;
         request.header["settings"] = settings;
         request.header["scenario"] = scenarioJson(planar ? planarLift(sent) : sent, planar);
         return buildWorld(connection_, ++worlds_, scenario, std::move(request));
+    }
+
+    bool hasDimension(int dimension) const {
+        const auto& dimensions = description_.capabilities.dimensions;
+        return std::find(dimensions.begin(), dimensions.end(), dimension) != dimensions.end();
+    }
+
+    /// A planar engine takes shapes of 2D as they are.
+    void requireDimension(int dimension) const {
+        const auto& [name, lacks] = std::tie(description_.info.name, description_.capabilities.libraryLacks);
+        if (hasDimension(dimension) || (dimension == 2 && description_.capabilities.planar)) return;
+        const std::string key = std::to_string(dimension) + "D", what = "shapes in " + key;
+        const auto documented = lacks.find(key);
+        if (documented == lacks.end()) throw notInAdapter(name, what);
+        throw notInLibrary(name, what, documented->second);
     }
 
     void requireShape(const PosedShape& side, int dimension) const {
