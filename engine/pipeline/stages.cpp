@@ -313,8 +313,8 @@ void Step<S>::correct() {
         StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, state_.positions);
         // Joints are put right again at the end of the step; one iteration keeps midpoints from drifting.
         const bool once = motion_.isAtMidpoint() && positions.contactCount() == 0;
-        algorithms_.correction->correct(
-            positions, once ? std::min(def_.positionIterations, 1) : def_.positionIterations, def_.slop);
+        const int most = def_.positionIterations;
+        algorithms_.correction->correct(positions, {most, once ? std::min(most, 1) : most}, def_.slop);
     }
     motion_.finish(bodies_, h, tasks_);
     if (!last) advanceContacts();

@@ -200,7 +200,8 @@ void Step<S>::putJointsRight() {
     StepPositions<S> positions(bodies_, joints_, state_.noContacts, state_.still, state_.substepSize, Real(0),
                                state_.positions);
     positions.holdMotors();
-    algorithms_.correction->correct(positions, std::min(def_.positionIterations, 2), def_.slop);
+    algorithms_.correction->correct(
+        positions, {def_.positionIterations, std::min(def_.positionIterations, 2)}, def_.slop);
 }
 
 #define RIGOR_INSTANTIATE(S)                                          \

@@ -49,6 +49,13 @@ class PositionProblem {
     virtual void applyRotations() = 0;
 };
 
+/// Iterations of position correction. Joint errors are of the order h^2 where a step follows the motion, and few
+/// iterations of Newton's method are enough; joints that are further apart have more.
+struct PositionIterations {
+    int most;
+    int usual = most;  ///< enough where the joints are nearly right
+};
+
 template <class S>
 class PositionCorrection {
   public:
@@ -59,8 +66,9 @@ class PositionCorrection {
     /// Iterations of the velocity solver after the bodies have moved, with relaxed biases; at most as many as
     /// it has before.
     virtual int relaxIterations() const { return 0; }
-    /// Called after the bodies have moved.
-    virtual void correct(PositionProblem<S>& problem, int iterations, typename S::Real slop) {
+    /// Called after the bodies have moved. `slop`: overlap that stays [m].
+    virtual void correct(PositionProblem<S>& problem, const PositionIterations& iterations,
+                         typename S::Real slop) {
         (void)problem;
         (void)iterations;
         (void)slop;

@@ -8,10 +8,13 @@
 //                                                               where C < 0, one by one
 //     contact   lambda = max(0, -beta (C + slop)) / K           beta < 1 lets coupled contacts converge
 // Velocities are not touched, so no energy enters through them (potential energy does: bodies are lifted
-// out). Without contacts and limits the iterations end when they improve the joints no more.
+// out). Without contacts and limits the iterations end when they improve the joints no more. Connected joints that are
+// still apart after the usual number of iterations have further ones, whatever the others do.
 // Cost: iterations * constraints.
 #include <algorithm>
+#include <utility>
 
+#include "engine/core/disjoint_sets.hpp"
 #include "engine/solvers/joints/joint_system.hpp"
 #include "engine/solvers/position_correction.hpp"
 
@@ -25,26 +28,36 @@ class Ngs final : public PositionCorrection<S> {
 
     std::unique_ptr<PositionCorrection<S>> clone() const override { return std::make_unique<Ngs>(*this); }
 
-    void correct(PositionProblem<S>& problem, int iterations, Real slop) override {
+    void correct(PositionProblem<S>& problem, const PositionIterations& iterations, Real slop) override {
         Real last = std::numeric_limits<Real>::infinity();
         bool together = true;
-        for (int i = 0; i < iterations; ++i) {
+        for (int i = 0; i < iterations.usual; ++i) {
             const Real error = correctJoints(problem, together);
             correctContacts(problem, slop);
             problem.applyRotations();
             if (!(error < Real(0.5) * last)) {
                 // Rounding reached, or too far off for Newton's iteration: joint by joint is slow and sure.
-                constexpr Real kRounding = Real(1000) * std::numeric_limits<Real>::epsilon();
                 if (problem.contactCount() == 0 && !limited_ && error < kRounding) break;
                 together = together && error < kRounding;
             }
             last = error;
         }
+        if (last >= kNear && iterations.usual < iterations.most)
+            correctFurther(problem, iterations.most - iterations.usual);
     }
 
   private:
-    static constexpr Real kBaumgarte = Real(0.2);    ///< beta of contacts
-    static constexpr Real kLongestMove = Real(0.2);  ///< longest move per contact and iteration [m]
+    static constexpr Real kBaumgarte = Real(0.2);  ///< beta of contacts
+    static constexpr Real kNear = Real(1e-5);      ///< joint error that Newton's method squares [m] or [rad]
+    static constexpr Real kRounding =
+        Real(1000) * std::numeric_limits<Real>::epsilon();  ///< error that rounding leaves
+    static constexpr Real kLongestMove = Real(0.2);         ///< longest move per contact and iteration [m]
+
+    /// Connected joints in further iterations.
+    struct Part {
+        Real error = 0, last = 0;  ///< largest when its joints were evaluated, and before
+        bool settled = false;      ///< rounding is reached
+    };
 
     /// Returns the largest error of a row that holds.
     Real correctJoints(PositionProblem<S>& problem, bool together) {
@@ -53,39 +66,83 @@ class Ngs final : public PositionCorrection<S> {
         if (n == 0) return 0;
         if (joints_.size() < n) joints_.resize(n);
         Real largest = 0;
-        items_.clear();
         held_.clear();
         for (std::size_t j = 0; j < n; ++j) {
-            JointPositions<S>& joint = joints_[j];
-            problem.evaluateJoint(j, joint);
-            limited_ = limited_ || joint.count > joint.block.rows;
-            if (joint.block.rows == 0) continue;
+            problem.evaluateJoint(j, joints_[j]);
+            limited_ = limited_ || joints_[j].count > joints_[j].block.rows;
+            if (joints_[j].block.rows == 0) continue;
             held_.push_back(j);
-            items_.push_back({&joint.block, joint.row.data()});
-            for (std::size_t r = 0; r < joint.block.rows; ++r)
-                largest = std::max(largest, std::abs(joint.row[r].error));
+            largest = std::max(largest, errorOf(joints_[j]));
         }
         if (largest > 0) {
-            if (together && system_.factor(items_))
-                correctTogether(problem);
-            else
-                correctOneByOne(problem);
+            if (!together || !correctTogether(problem, held_, system_)) correctOneByOne(problem, held_);
         }
         if (limited_) correctLimits(problem);
         return largest;
     }
 
-    void correctTogether(PositionProblem<S>& problem) {
-        for (std::size_t k = 0; k < held_.size(); ++k)
-            for (int r = 0; r < joints_[held_[k]].block.rows; ++r)
-                system_.at(k)[r] = -joints_[held_[k]].row[r].error;
-        system_.solve();
-        for (std::size_t k = 0; k < held_.size(); ++k) move(problem, joints_[held_[k]], system_.at(k));
-        problem.applyRotations();
+    /// Goes on with the connected joints that were further apart than kNear before the last iteration. What becomes of
+    /// a part does not depend on the others.
+    void correctFurther(PositionProblem<S>& problem, int iterations) {
+        findParts();
+        for (int i = 0; i < iterations; ++i) {
+            std::erase_if(held_,
+                          [this](std::size_t j) { return partOf(j).settled || partOf(j).error < kNear; });
+            if (held_.empty()) return;
+            for (const std::size_t j : held_) problem.evaluateJoint(j, joints_[j]);
+            findErrors();
+            if (!correctTogether(problem, held_, further_)) correctOneByOne(problem, held_);
+        }
     }
 
-    void correctOneByOne(PositionProblem<S>& problem) {
+    void findParts() {
+        std::uint32_t bodies = 0;
+        for (const std::size_t j : held_)
+            bodies = std::max({bodies, joints_[j].block.a + 1, joints_[j].block.b + 1});
+        sets_.begin(bodies);
         for (const std::size_t j : held_) {
+            const Block<S>& block = joints_[j].block;
+            if (block.invMassA > 0 && block.invMassB > 0) sets_.join(block.a, block.b);
+        }
+        parts_.assign(bodies, Part{});
+        findErrors();
+    }
+    Part& partOf(std::size_t joint) {
+        const Block<S>& block = joints_[joint].block;
+        return parts_[sets_.rootOf(block.invMassA > 0 ? block.a : block.b)];
+    }
+    /// Errors of the parts as their joints were evaluated.
+    void findErrors() {
+        for (Part& part : parts_) part.last = std::exchange(part.error, Real(0));
+        for (const std::size_t j : held_) partOf(j).error = std::max(partOf(j).error, errorOf(joints_[j]));
+        for (Part& part : parts_)
+            part.settled = part.last > 0 && !(part.error < Real(0.5) * part.last) && part.error < kRounding;
+    }
+    static Real errorOf(const JointPositions<S>& joint) {
+        Real largest = 0;
+        for (int r = 0; r < joint.block.rows; ++r)
+            largest = std::max(largest, std::abs(joint.row[static_cast<std::size_t>(r)].error));
+        return largest;
+    }
+
+    /// False: there are no factors.
+    bool correctTogether(PositionProblem<S>& problem, std::span<const std::size_t> joints,
+                         JointSystem<S>& system) {
+        if (joints.empty()) return true;
+        items_.clear();
+        for (const std::size_t j : joints) items_.push_back({&joints_[j].block, joints_[j].row.data()});
+        if (!system.factor(items_)) return false;
+        for (std::size_t k = 0; k < joints.size(); ++k)
+            for (int r = 0; r < joints_[joints[k]].block.rows; ++r)
+                system.at(k)[r] = -joints_[joints[k]].row[r].error;
+        system.solve();
+        for (std::size_t k = 0; k < joints.size(); ++k) move(problem, joints_[joints[k]], system.at(k));
+        problem.applyRotations();
+        return true;
+    }
+
+    void correctOneByOne(PositionProblem<S>& problem, std::span<const std::size_t> joints) {
+        for (const std::size_t j : joints) {
             JointPositions<S>& joint = joints_[j];
             problem.evaluateJoint(j, joint);
             BlockVector<S> error(joint.block.rows);
@@ -128,8 +185,10 @@ class Ngs final : public PositionCorrection<S> {
     std::vector<JointPositions<S>> joints_;
     std::vector<std::size_t> held_;  ///< joints with equality rows
     std::vector<typename JointSystem<S>::Item> items_;
-    JointSystem<S> system_;
-    bool limited_ = false;  ///< some joint has limits
+    JointSystem<S> system_, further_;
+    DisjointSets sets_;        ///< bodies that joints connect
+    std::vector<Part> parts_;  ///< at the root of their bodies
+    bool limited_ = false;     ///< some joint has limits
 };
 
 }  // namespace

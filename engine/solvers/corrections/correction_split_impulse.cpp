@@ -30,9 +30,9 @@ class SplitImpulse final : public PositionCorrection<S> {
         return std::make_unique<SplitImpulse>(*this);
     }
 
-    void correct(PositionProblem<S>& problem, int iterations, Real slop) override {
+    void correct(PositionProblem<S>& problem, const PositionIterations& iterations, Real slop) override {
         gather(problem, slop);
-        for (int i = 0; i < iterations; ++i)
+        for (int i = 0; i < iterations.usual; ++i)
             for (Unit& unit : units_) {
                 const Real moved = problem.moved(unit.block, unit.row) - unit.start;
                 Real lambda = unit.lambda - (moved + unit.error) * unit.row.invK;
