@@ -59,6 +59,10 @@ class AssembledProblem {
     double at(std::size_t i, std::size_t j) const { return W[i * n + j]; }
     /// Velocity that a unit impulse of row i gives the row, if no other row holds it.
     double scale(std::size_t i) const { return own.empty() ? at(i, i) : own[i]; }
+    /// W_ii with the damping sigma of Newton's method (ContactNewton).
+    double damped(std::size_t i, double sigma) const {
+        return own.empty() ? at(i, i) * (1 + sigma) : at(i, i) + sigma * own[i];
+    }
     /// w of row i under the impulses.
     double velocity(std::size_t i, const std::vector<double>& impulses) const {
         double sum = q[i];

@@ -20,7 +20,7 @@ bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<do
         w_[i] = w;
         // The row is set as if w = 0 were its equation, and changed below if it is not.
         std::copy_n(W, n, A + i * n);
-        A[i * n + i] += sigma * p.scale(i);
+        A[i * n + i] = p.damped(i, sigma);
         right_[i] = -w;
     }
     const auto pin = [&](std::size_t i, double value) {
