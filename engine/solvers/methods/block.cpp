@@ -95,11 +95,12 @@ class BlockGaussSeidel final : public Solver<S> {
         }
     }
 
-    /// Rows of the blocks in blocks_ but those of one kind.
-    std::size_t rowsWithout(const SolverInput<S>& input, BlockKind kind) const {
+    /// Rows of the blocks in blocks_ but the equality rows of joints.
+    std::size_t rowsBesideEqualities(const SolverInput<S>& input) const {
         std::size_t rows = 0;
         for (const std::uint32_t k : blocks_)
-            if (input.constraints.blocks[k].kind != kind) rows += input.constraints.blocks[k].rows;
+            if (input.constraints.blocks[k].kind != BlockKind::Joint)
+                rows += input.constraints.blocks[k].rows;
         return rows;
     }
 
@@ -139,7 +140,7 @@ class BlockGaussSeidel final : public Solver<S> {
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             if (solved_[part]) continue;
             collectBlocks(input.constraints.blocks, part, std::numeric_limits<std::size_t>::max());
-            if (!hasJoints(input) || rowsWithout(input, BlockKind::Joint) == 0) continue;
+            if (!hasJoints(input) || rowsBesideEqualities(input) == 0) continue;
             const Real change = changeOf(part);
             if (change > kStalled * before_[part]) solved_[part] = stalled_[part] = 1;
             before_[part] = change;
@@ -194,7 +195,7 @@ class BlockGaussSeidel final : public Solver<S> {
         if (!mayFinish(input)) return;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             if (solved_[part] || !collectBlocks(input.constraints.blocks, part, kFinishRows)) continue;
-            const std::size_t rows = rowsWithout(input, BlockKind::Joint);
+            const std::size_t rows = rowsBesideEqualities(input);
             if (rows == 0 || rows > kEarlyRows) continue;
             input.monitor.before(input.velocities, blocks_);
             const Residual left = residualOf(input);
@@ -326,9 +327,10 @@ class BlockGaussSeidel final : public Solver<S> {
         2;  ///< before conjugate gradients: most parts of scenes at rest need no more
     static constexpr int kEarlyIterations = 6;  ///< sweeps before Newton's method takes the smallest parts,
     static constexpr std::size_t kEarlyRows = 48;  ///< the most rows of these
-    static constexpr int kStallIterations =
-        10;  ///< sweeps, even: forwards and backwards differ, in which the
-    static constexpr Real kStalled = Real(0.8);   ///< residual falls at least to this fraction of what it was
+    /// Even, since sweeps forwards and backwards leave other residuals.
+    static constexpr int kStallIterations = 10;
+    static constexpr Real kStalled =
+        Real(0.8);  ///< fraction of the residual that so many sweeps leave at most
     static constexpr int kFinishIterations = 30;  ///< fewer than that are too few to sort contacts by
     static constexpr int kFinishSteps = 12;
     static constexpr std::size_t kSmallRows = 128;  ///< n^3 / 3 is then less than a millisecond
