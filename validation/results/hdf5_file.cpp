@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -51,9 +52,8 @@ void silence() {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-void setAttribute(hid_t file, const std::string& path, const char* name, hid_t type, const void* value) {
+void setAttribute(hid_t object, const std::string& path, const char* name, hid_t type, const void* value) {
     const std::string what = "write attribute " + path + "@" + name;
-    const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, what);
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose, what);
     const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
     check(H5Awrite(attribute, type, value), what);
@@ -72,17 +72,17 @@ std::size_t textSize(hid_t type, const std::string& what) {
     return size;
 }
 
-void getAttribute(hid_t file, const std::string& path, const char* name, hid_t type, void* value) {
+void getAttribute(hid_t object, const std::string& path, const char* name, hid_t type, void* value) {
     const std::string what = "read attribute " + path + "@" + name;
-    const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, what);
     const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, what);
     requireOne(attribute, what);
     check(H5Aread(attribute, type, value), what);
 }
 
+/// Returns the new dataset.
 template <class T>
-void writeValues(Hdf5File& owner, hid_t file, const std::string& path, const std::vector<T>& values,
-                 int columns, const std::string& unit, hid_t memoryType, hid_t fileType) {
+hid_t writeValues(hid_t file, const std::string& path, const std::vector<T>& values, int columns,
+                  hid_t memoryType, hid_t fileType) {
     const std::string what = "write " + path;
     if (columns < 1 || values.size() % static_cast<std::size_t>(columns) != 0)
         failed(what + ": " + std::to_string(values.size()) + " values in " + std::to_string(columns) +
@@ -99,20 +99,18 @@ void writeValues(Hdf5File& owner, hid_t file, const std::string& path, const std
         check(H5Pset_shuffle(properties), what);
         check(H5Pset_deflate(properties, kDeflateLevel), what);
     }
-    {
-        const Handle set(
-            H5Dcreate2(file, path.c_str(), fileType, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
-            what);
-        if (!values.empty())
-            check(H5Dwrite(set, memoryType, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+    const hid_t set = H5Dcreate2(file, path.c_str(), fileType, space, H5P_DEFAULT, properties, H5P_DEFAULT);
+    check(set < 0 ? -1 : 0, what);
+    if (!values.empty() && H5Dwrite(set, memoryType, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+        H5Dclose(set);
+        failed(what);
     }
-    owner.setText(path, "unit", unit);
+    return set;
 }
 
 template <class T>
-std::vector<T> readValues(hid_t file, const std::string& path, int& columns, hid_t memoryType) {
+std::vector<T> readValues(hid_t set, const std::string& path, int& columns, hid_t memoryType) {
     const std::string what = "read " + path;
-    const Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, what);
     const Handle space(H5Dget_space(set), H5Sclose, what);
     const int rank = H5Sget_simple_extent_ndims(space);
     if (rank != 1 && rank != 2) failed(what + ": it has neither one nor two dimensions");
@@ -161,9 +159,21 @@ herr_t keepImage(void*) {
     return 0;
 }
 
+/// A name that no other file in memory has. The library would open a second time one that is open under the name given.
+std::string uniqueName() {
+    static int count = 0;
+    return "memory " + std::to_string(++count);
+}
+
+std::optional<Hdf5File>& preparedFile() {
+    static std::optional<Hdf5File> file;
+    return file;
+}
+
 }  // namespace
 
 Hdf5File Hdf5File::create() {
+    if (auto prepared = std::exchange(preparedFile(), std::nullopt)) return std::move(*prepared);
     silence();
     const std::string what = "create a file";
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
@@ -175,7 +185,7 @@ Hdf5File Hdf5File::create() {
     H5FD_file_image_callbacks_t callbacks{allocateImage, copyImage, resizeImage, take<Image>,
                                           sameImage,     keepImage, image.get()};
     check(H5Pset_file_image_callbacks(access, &callbacks), what);
-    const hid_t id = H5Fcreate("memory", H5F_ACC_TRUNC, creation, access);
+    const hid_t id = H5Fcreate(uniqueName().c_str(), H5F_ACC_TRUNC, creation, access);
     if (id < 0) failed(what);
     return Hdf5File(id, std::move(image));
 }
@@ -191,7 +201,7 @@ Hdf5File Hdf5File::fromImage(const std::string& bytes) {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
     check(H5Pset_fapl_core(access, kMemoryIncrement, false), what);
     check(H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()), what);
-    const hid_t id = H5Fopen("memory", H5F_ACC_RDONLY, access);
+    const hid_t id = H5Fopen(uniqueName().c_str(), H5F_ACC_RDONLY, access);
     if (id < 0) failed(what);
     return Hdf5File(id, nullptr);
 }
@@ -199,14 +209,33 @@ Hdf5File Hdf5File::fromImage(const std::string& bytes) {
 Hdf5File::Hdf5File(std::int64_t id, std::unique_ptr<Image> image) : id_(id), image_(std::move(image)) {}
 
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept
-    : id_(std::exchange(other.id_, -1)), image_(std::move(other.image_)) {}
+    : id_(std::exchange(other.id_, -1)),
+      image_(std::move(other.image_)),
+      object_(std::exchange(other.object_, -1)),
+      objectPath_(std::move(other.objectPath_)) {}
 
 Hdf5File::~Hdf5File() {
+    keepOpen(-1, "");
     if (id_ >= 0) H5Fclose(id_);
+}
+
+void Hdf5File::keepOpen(std::int64_t object, const std::string& path) const {
+    if (object_ >= 0) H5Oclose(object_);
+    object_ = object;
+    objectPath_ = path;
+}
+
+std::int64_t Hdf5File::objectAt(const std::string& path) const {
+    if (object_ >= 0 && objectPath_ == path) return object_;
+    const hid_t object = H5Oopen(id_, path.c_str(), H5P_DEFAULT);
+    if (object < 0) failed("open " + path);
+    keepOpen(object, path);
+    return object_;
 }
 
 std::string Hdf5File::finish() {
     const std::string what = "collect the bytes of the file";
+    keepOpen(-1, "");
     check(H5Fflush(id_, H5F_SCOPE_GLOBAL), what);
     // H5Fget_file_image would give the content as well, but damages the checksum of the superblock (1.10.8).
     const ssize_t size = H5Fget_file_image(id_, nullptr, 0);
@@ -220,7 +249,9 @@ void Hdf5File::createGroup(const std::string& path) {
     const std::string what = "create group " + path;
     const Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, what);
     check(H5Pset_obj_track_times(properties, false), what);
-    const Handle group(H5Gcreate2(id_, path.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose, what);
+    const hid_t group = H5Gcreate2(id_, path.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT);
+    if (group < 0) failed(what);
+    keepOpen(group, path);
 }
 
 bool Hdf5File::exists(const std::string& path) const {
@@ -241,17 +272,19 @@ std::vector<std::string> Hdf5File::children(const std::string& path) const {
 
 void Hdf5File::writeDoubles(const std::string& path, const std::vector<double>& values, int columns,
                             const std::string& unit) {
-    writeValues(*this, id_, path, values, columns, unit, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE);
+    keepOpen(writeValues(id_, path, values, columns, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE), path);
+    setText(path, "unit", unit);
 }
 void Hdf5File::writeIntegers(const std::string& path, const std::vector<int>& values, int columns,
                              const std::string& unit) {
-    writeValues(*this, id_, path, values, columns, unit, H5T_NATIVE_INT, H5T_STD_I32LE);
+    keepOpen(writeValues(id_, path, values, columns, H5T_NATIVE_INT, H5T_STD_I32LE), path);
+    setText(path, "unit", unit);
 }
 std::vector<double> Hdf5File::readDoubles(const std::string& path, int& columns) const {
-    return readValues<double>(id_, path, columns, H5T_NATIVE_DOUBLE);
+    return readValues<double>(objectAt(path), path, columns, H5T_NATIVE_DOUBLE);
 }
 std::vector<int> Hdf5File::readIntegers(const std::string& path, int& columns) const {
-    return readValues<int>(id_, path, columns, H5T_NATIVE_INT);
+    return readValues<int>(objectAt(path), path, columns, H5T_NATIVE_INT);
 }
 
 void Hdf5File::writeText(const std::string& path, const std::string& text) {
@@ -283,19 +316,18 @@ void Hdf5File::setText(const std::string& path, const char* name, const std::str
     // size with the terminating zero, at least 1
     check(H5Tset_size(type, text.size() + 1), "make a string type");
     check(H5Tset_cset(type, H5T_CSET_UTF8), "make a string type");
-    setAttribute(id_, path, name, type, text.c_str());
+    setAttribute(objectAt(path), path, name, type, text.c_str());
 }
 void Hdf5File::setInteger(const std::string& path, const char* name, int value) {
-    setAttribute(id_, path, name, H5T_NATIVE_INT, &value);
+    setAttribute(objectAt(path), path, name, H5T_NATIVE_INT, &value);
 }
 void Hdf5File::setDouble(const std::string& path, const char* name, double value) {
-    setAttribute(id_, path, name, H5T_NATIVE_DOUBLE, &value);
+    setAttribute(objectAt(path), path, name, H5T_NATIVE_DOUBLE, &value);
 }
 
 std::string Hdf5File::text(const std::string& path, const char* name) const {
     const std::string what = "read attribute " + path + "@" + name;
-    const Handle object(H5Oopen(id_, path.c_str(), H5P_DEFAULT), H5Oclose, what);
-    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, what);
+    const Handle attribute(H5Aopen(objectAt(path), name, H5P_DEFAULT), H5Aclose, what);
     const Handle type(H5Aget_type(attribute), H5Tclose, what);
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
         failed(what + ": it is no plain text");
@@ -306,17 +338,17 @@ std::string Hdf5File::text(const std::string& path, const char* name) const {
 }
 int Hdf5File::integer(const std::string& path, const char* name) const {
     int value = 0;
-    getAttribute(id_, path, name, H5T_NATIVE_INT, &value);
+    getAttribute(objectAt(path), path, name, H5T_NATIVE_INT, &value);
     return value;
 }
 double Hdf5File::number(const std::string& path, const char* name) const {
     double value = 0.0;
-    getAttribute(id_, path, name, H5T_NATIVE_DOUBLE, &value);
+    getAttribute(objectAt(path), path, name, H5T_NATIVE_DOUBLE, &value);
     return value;
 }
 
-void releaseHdf5Memory() {
-    check(H5garbage_collect(), "give back memory");
+void prepareHdf5File() {
+    preparedFile().emplace(Hdf5File::create());
 }
 
 }  // namespace rigor::results

@@ -55,11 +55,18 @@ class Hdf5File {
   private:
     struct Image;
     Hdf5File(std::int64_t id, std::unique_ptr<Image> image);
+    void keepOpen(std::int64_t object, const std::string& path) const;
+    std::int64_t objectAt(const std::string& path) const;
+
     std::int64_t id_;
     std::unique_ptr<Image> image_;  ///< null when reading
+    /// The object that was used last stays open: most are used several times in a row, and the library opens each slowly.
+    mutable std::int64_t object_ = -1;
+    mutable std::string objectPath_;
 };
 
-/// Gives back the memory that the library keeps for the files to come.
-void releaseHdf5Memory();
+/// Makes the file that the next create() gives. The library clears half a megabyte for each file: a process that is forked
+/// for one case gets it from its parent, and only copies the pages that it uses.
+void prepareHdf5File();
 
 }  // namespace rigor::results

@@ -180,6 +180,10 @@ TEST(TrajectoryFile, TheSameDataMakesTheSameFile) {
     writeTrajectory(folder.path() / "a.h5", sampleFile(50));
     writeTrajectory(folder.path() / "b.h5", sampleFile(50));
     EXPECT_EQ(bytes(folder.path() / "a.h5"), bytes(folder.path() / "b.h5"));
+    prepareHdf5File();
+    EXPECT_EQ(readTrajectory(folder.path() / "a.h5").caseId, sampleFile(50).caseId);
+    writeTrajectory(folder.path() / "c.h5", sampleFile(50));
+    EXPECT_EQ(bytes(folder.path() / "a.h5"), bytes(folder.path() / "c.h5"));
 }
 
 TEST(TrajectoryFile, DamagedFilesAreNamed) {
