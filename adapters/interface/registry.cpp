@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <mutex>
 #include <set>
 
 #include "adapters/interface/checked_world.hpp"
@@ -69,15 +70,42 @@ std::string absentText(const GuestManifest& guest) {
            (guest.install.empty() ? "" : "; to install it: " + guest.install);
 }
 
+/// Modules that were opened with success. They stay mapped: objects that they made may outlive their engine, and some
+/// libraries do not survive being unloaded. The loader would go through all libraries of the process each time.
+class OpenModules {
+  public:
+    /// Null if it is none of them.
+    void* find(const std::filesystem::path& file) const {
+        const std::lock_guard lock(mutex_);
+        const auto open = handles_.find(file);
+        return open == handles_.end() ? nullptr : open->second;
+    }
+    void add(const std::filesystem::path& file, void* handle) {
+        const std::lock_guard lock(mutex_);
+        handles_[file] = handle;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    std::map<std::filesystem::path, void*> handles_;
+};
+
+OpenModules& openModules() {
+    static OpenModules modules;
+    return modules;
+}
+
 void* openLibrary(const std::filesystem::path& file) {
     void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) throw std::runtime_error(std::string("cannot load the module: ") + dlerror());
     return handle;
 }
 
-/// The description that an open module exports, its version checked; closes the module where it is none.
+/// The description that a module exports, its version checked. The module is closed again where it is none.
 template <class Described>
-const Described& entryOf(void* handle, const std::filesystem::path& file, const char* symbol) {
+const Described& entryOf(const std::filesystem::path& file, const char* symbol) {
+    void* handle = openModules().find(file);
+    if (handle == nullptr) handle = openLibrary(file);
     using Entry = const Described* (*)();
     const auto entry = reinterpret_cast<Entry>(dlsym(handle, symbol));
     if (entry == nullptr) {
@@ -91,6 +119,7 @@ const Described& entryOf(void* handle, const std::filesystem::path& file, const 
         throw std::runtime_error(file.string() + ": built for adapter interface " + std::to_string(abi) +
                                  ", this program has " + std::to_string(kAdapterAbi));
     }
+    openModules().add(file, handle);
     return *described;
 }
 
@@ -182,31 +211,11 @@ void LoadedEngine::open(const std::filesystem::path& module) {
     if (module.extension() == kManifest) {
         const GuestManifest manifest = readGuestManifest(module);
         const auto host = guestHost();
-        handle_ = openLibrary(host);
-        engine_ = entryOf<GuestHost>(handle_, host, "rigorGuestHost").open(manifest);
+        engine_ = entryOf<GuestHost>(host, "rigorGuestHost").open(manifest);
         return;
     }
-    handle_ = openLibrary(module);
-    engine_ = entryOf<Module>(handle_, module, "rigorAdapter").create();
+    engine_ = entryOf<Module>(module, "rigorAdapter").create();
 }
-
-LoadedEngine::LoadedEngine(LoadedEngine&& other) noexcept
-    : handle_(std::exchange(other.handle_, nullptr)),
-      engine_(std::move(other.engine_)),
-      environment_(other.environment_),
-      environmentChanges_(std::move(other.environmentChanges_)) {}
-
-LoadedEngine& LoadedEngine::operator=(LoadedEngine&& other) noexcept {
-    std::swap(handle_, other.handle_);
-    std::swap(engine_, other.engine_);
-    std::swap(environment_, other.environment_);
-    std::swap(environmentChanges_, other.environmentChanges_);
-    return *this;
-}
-
-// The library itself stays mapped: objects it made may outlive this one, and some libraries do not survive
-// being unloaded.
-LoadedEngine::~LoadedEngine() = default;
 
 std::unique_ptr<World> LoadedEngine::build(const Scenario& scenario, double dt,
                                            const Settings& settings) const {

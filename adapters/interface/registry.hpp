@@ -44,13 +44,10 @@ std::vector<std::string> availablePrecisions(const std::string& engine);
 /// the known engines, or what a guest lacks.
 std::filesystem::path moduleFor(const EngineSpec& spec);
 
-/// A module kept open as long as the engine lives.
+/// An engine of a module, which stays open until the process ends.
 class LoadedEngine {
   public:
     explicit LoadedEngine(const std::filesystem::path& module);
-    ~LoadedEngine();
-    LoadedEngine(LoadedEngine&&) noexcept;
-    LoadedEngine& operator=(LoadedEngine&&) noexcept;
     const Engine& operator*() const { return *engine_; }
     const Engine* operator->() const { return engine_.get(); }
 
@@ -63,7 +60,6 @@ class LoadedEngine {
   private:
     void open(const std::filesystem::path& module);
 
-    void* handle_ = nullptr;
     std::unique_ptr<Engine> engine_;
     FloatEnvironment environment_;  ///< environment of the process before it was loaded
     std::string environmentChanges_;

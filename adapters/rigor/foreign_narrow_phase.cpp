@@ -107,10 +107,14 @@ class ForeignNarrowPhase final : public engine::NarrowPhase<S> {
 }  // namespace
 
 std::vector<std::string> foreignNarrowPhases() {
-    const std::vector<std::string> installed = availableEngines();
-    std::vector<std::string> names;
-    for (const char* name : kForeign)
-        if (std::find(installed.begin(), installed.end(), name) != installed.end()) names.emplace_back(name);
+    static const std::vector<std::string> names = [] {
+        const std::vector<std::string> installed = availableEngines();
+        std::vector<std::string> found;
+        for (const char* name : kForeign)
+            if (std::find(installed.begin(), installed.end(), name) != installed.end())
+                found.emplace_back(name);
+        return found;
+    }();
     return names;
 }
 

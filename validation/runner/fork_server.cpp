@@ -88,7 +88,7 @@ void ForkServers::launch(Server& server, const std::string& binary, const std::f
     try {
         server.pid = startProgram({binary, kServeCommand, module.string(), std::to_string(ends[1]),
                                    std::string(kRoomForArguments, ' ')},
-                                  null, 0, {ends[1]});
+                                  null, 0, {ends[1]}, std::string(kBindNow) + "=1");
         server.socket = ends[0];
     } catch (const results::EnvironmentError&) {
         close(ends[0]);

@@ -116,15 +116,20 @@ pid_t forkForParent(const ThreadRecords& thread) {
     return pid;
 }
 
-/// Does what every case would do first: HDF5 makes its tables, and the schema of scenarios is compiled. Memory that HDF5
-/// keeps for its next file is given back: a fork would copy it page by page before it clears it.
+/// Does what every case would do first: HDF5 makes its tables and an empty file, and the schema of scenarios is compiled.
 void prepareLibraries() {
-    (void)results::Hdf5File::create();
-    results::releaseHdf5Memory();
+    results::prepareHdf5File();
     try {
         scenario::checkScenarioSchema(scenario::parseDocument("{}", ""), "");
     } catch (const scenario::LoadError&) {  // it is no scenario
     }
+}
+
+/// Loads a module and reads its options, as every case does first. False if that changes the floating-point environment.
+bool isLoadedCleanly(const fs::path& module) {
+    const adapter::LoadedEngine engine(module);
+    (void)engine->options();
+    return engine.environmentChanges().empty();
 }
 
 ForkRequest receiveRequest(int socket) {
@@ -204,13 +209,14 @@ bool sendRequest(int socket, const ForkRequest& request) {
 
 std::vector<std::string> serveRequests(const fs::path& module, int socket) {
     fcntl(socket, F_SETFD, FD_CLOEXEC);
+    unsetenv(kBindNow);
     const pid_t parent = getppid();
     ArgumentMemory shown;
     ThreadRecords thread;
     const Footprint before;
     prepareLibraries();
     bool isClean = thread.find();
-    if (!module.empty()) isClean &= adapter::LoadedEngine(module).environmentChanges().empty();
+    if (!module.empty()) isClean &= isLoadedCleanly(module);
     isClean &= Footprint().isClean(before);
     shown.write({shown.program(), kServeCommand, module.string()});
     std::fflush(nullptr);

@@ -30,6 +30,10 @@ struct ForkAnswer {
 /// processes shows what it does.
 inline constexpr std::size_t kRoomForArguments = 512;
 
+/// A variable of the environment, by which the loader looks up all functions of a server's libraries when it starts.
+/// Otherwise each child would look up by itself those that it calls.
+inline constexpr const char* kBindNow = "LD_BIND_NOW";
+
 /// False if the server has ended, or takes nothing.
 bool sendRequest(int socket, const ForkRequest& request);
 
