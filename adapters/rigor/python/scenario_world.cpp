@@ -2,13 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "adapters/rigor/python/scenario_world.hpp"
 
-#include "adapters/interface/registry.hpp"
 #include "adapters/rigor/convert_shape.hpp"
 #include "adapters/rigor/native_world.hpp"
-#include "adapters/rigor/parts.hpp"
+#include "adapters/rigor/python/spec_settings.hpp"
 #include "engine/integrators/traits.hpp"
 #include "engine/python/typed_world.hpp"
-#include "scenarios/loader/engine_settings.hpp"
 #include "scenarios/loader/loader.hpp"
 
 namespace rigor::adapter {
@@ -79,16 +77,6 @@ std::shared_ptr<engine::python::AnyWorld> makeTyped(const Scenario& scenario, do
     for (const scenario::Material& material : scenario.materials)
         built.materialNames.push_back(material.name);
     return std::make_shared<TypedWorld<S>>(std::move(built));
-}
-
-Settings settingsOf(const std::string& text, const std::string& scenarioText) {
-    EngineSpec spec = parseSpec(text);
-    if (spec.engine != "rigor")
-        throw BadInput("found the engine '" + spec.engine +
-                       "', expected rigor: other engines run in processes of their own (rigor.validate)");
-    for (const auto& [key, value] : scenario::engineSettings(scenarioText, spec.engine))
-        spec.options.emplace(key, value);
-    return resolveSettings(spec, *makeRigorEngine());
 }
 
 }  // namespace
