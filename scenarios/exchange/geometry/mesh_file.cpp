@@ -174,9 +174,9 @@ void addMesh(SceneBuilder& builder, Report& report, int body, const std::vector<
         const std::string which =
             parts.size() > 1 ? "part " + std::to_string(i + 1) + " of the mesh" : "the mesh";
         if (!isConvex(parts[i], hull)) {
-            const std::string why = which + " is open or not convex (its hull has " +
+            const std::string why = which + " is open or not convex (it has " +
                                     std::to_string(100.0 * (1.0 - volumeOf(parts[i]) / hull.volume)) +
-                                    " % more volume)";
+                                    " % less volume than its hull)";
             if (!options.hull) {
                 report.refuse(
                     "mesh", place,
