@@ -38,10 +38,20 @@ const tests = {
   external: ['axe-core', 'playwright-core'],
 };
 
-await build({
-  ...(mode === '--tests' ? tests : pages),
-  outdir: output,
+const common = {
   bundle: true,
   charset: 'ascii', // no compiler minds what is embedded
   logLevel: 'warning',
-});
+};
+await build({ ...common, ...(mode === '--tests' ? tests : pages), outdir: output });
+if (mode === '--tests') {
+  // All tests in the browser as one program: they share Chromium and the reports (tests/browser.ts).
+  const files = tests.entryPoints.filter((path) => path.startsWith('tests/browser/'));
+  const { entryPoints, outbase, outExtension, ...options } = tests;
+  await build({
+    ...common,
+    ...options,
+    stdin: { contents: files.map((path) => `import './${path}';\n`).join(''), resolveDir: '.' },
+    outfile: `${output}/browser.cjs`,
+  });
+}

@@ -55,31 +55,27 @@ foreach(test IN LISTS unit_tests browser_tests)
     string(REGEX REPLACE "\\.ts$" ".cjs" bundled ${bundled_tests}/${test})
     list(APPEND bundled_list ${bundled})
 endforeach()
+set(bundled_browser ${bundled_tests}/browser.cjs)  # all tests in the browser as one program
 add_custom_command(
-    OUTPUT ${bundled_list}
+    OUTPUT ${bundled_list} ${bundled_browser}
     COMMAND ${RIGOR_NODE} build.mjs ${bundled_tests} --tests
     DEPENDS ${installed} ${sources} ${test_sources} ${web}/build.mjs
     WORKING_DIRECTORY ${web}
     COMMENT "Bundling the tests of the pages"
     VERBATIM)
-add_custom_target(web_tests ALL DEPENDS ${bundled_list})
+add_custom_target(web_tests ALL DEPENDS ${bundled_list} ${bundled_browser})
 
-# web_test(<name> <folder> <timeout> <label>): the tests of tests/<folder>.
-function(web_test name folder timeout label)
-    set(files ${bundled_list})
-    list(FILTER files INCLUDE REGEX "/${folder}/[^/]*$")
-    if(NOT files)
-        return()
-    endif()
-    add_test(NAME ${name} COMMAND ${RIGOR_NODE} --test ${files} WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
-    set_tests_properties(${name} PROPERTIES TIMEOUT ${timeout} LABELS "${label}" ENVIRONMENT
+# web_test(<name> <timeout> <labels> <file>...): the tests of bundled files.
+function(web_test name timeout labels)
+    add_test(NAME ${name} COMMAND ${RIGOR_NODE} --test ${ARGN} WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${timeout} LABELS "${labels}" ENVIRONMENT
         "NODE_PATH=${web}/node_modules;RIGOR_BINARY_DIR=${PROJECT_BINARY_DIR};RIGOR_SOURCE_DIR=${PROJECT_SOURCE_DIR}")
 endfunction()
-web_test(web_unit_test unit 120 web)
-web_test(web_browser_test browser 2700 browser)
-if(TEST web_browser_test)
-    set_tests_properties(web_browser_test PROPERTIES COST 400 LABELS "web;slow")
-endif()
+set(bundled_unit ${bundled_list})
+list(FILTER bundled_unit INCLUDE REGEX "/unit/[^/]*$")
+web_test(web_unit_test 120 web ${bundled_unit})
+web_test(web_browser_test 1500 "web;slow" ${bundled_browser})
+set_tests_properties(web_browser_test PROPERTIES COST 400)
 add_test(NAME web_types_test COMMAND ${RIGOR_NPM} exec -- tsc --noEmit WORKING_DIRECTORY ${web})
 add_test(NAME web_lint_test COMMAND ${RIGOR_NPM} exec -- biome ci . WORKING_DIRECTORY ${web})
 set_tests_properties(web_types_test web_lint_test PROPERTIES TIMEOUT 120 LABELS web)

@@ -2,9 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Chromium with the network cut, and reports to open in it. Tests that need it are skipped where it is not installed.
+// CMake bundles all files of tests into one (build.mjs), so that they share one Chromium and each report is made once.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before } from 'node:test';
 import { type Browser, type BrowserContextOptions, chromium, type Page } from 'playwright-core';
@@ -17,11 +18,24 @@ const found = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/googl
 export const skip: string | false =
   found === undefined ? 'Chromium is not installed' : binaries === '' ? 'RIGOR_BINARY_DIR is not set' : false;
 
-export const launch = (): Promise<Browser> =>
-  chromium.launch({
+let browser: Promise<Browser> | undefined;
+
+/** The Chromium of all tests: started by the first one that needs it, closed after the last one. */
+export function sharedBrowser(): Promise<Browser> {
+  browser ??= chromium.launch({
     executablePath: found ?? '',
-    args: ['--headless=new', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+    // Debian starts it with GPU rasterization, which SwiftShader computes slower than the rasterizer of the processor.
+    args: [
+      '--headless=new',
+      '--no-sandbox',
+      '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader',
+      '--disable-gpu-rasterization',
+    ],
   });
+  return browser;
+}
+after(async () => (await browser)?.close());
 
 export const screenshots = join(binaries, 'screenshots');
 
@@ -29,100 +43,69 @@ export const screenshots = join(binaries, 'screenshots');
 export const program = (name: string, ...args: string[]): string =>
   execFileSync(join(binaries, name), args, { encoding: 'utf8', maxBuffer: 1 << 28, stdio: ['ignore', 'pipe', 'pipe'] });
 
-/** A run of a suite or of scenarios by the built program, in a folder of the test's own. */
-export function makeRunOf(name: string, ...what: string[]): string {
+/** A folder of this name that is empty or is not there. */
+function emptyFolder(name: string): string {
   const folder = join(binaries, 'web_runs', name);
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(join(binaries, 'web_runs'), { recursive: true });
+  return folder;
+}
+
+/** A maker whose folder is made at its first call. All tests share the folder and only read it. */
+const once = <T>(make: () => T): (() => T) => {
+  let made: { value: T } | undefined;
+  return () => {
+    made ??= { value: make() };
+    return made.value;
+  };
+};
+
+/** A run of a suite or of scenarios by the built program. */
+export function makeRunOf(name: string, ...what: string[]): string {
+  const folder = emptyFolder(name);
   program('bin/rigor', 'validate', ...what, '--out', folder, '-j2');
   return folder;
 }
 
-/** This call of the test runner, which starts a process for each file of tests. */
-const session = (): string => {
-  const stat = readFileSync(`/proc/${process.ppid}/stat`, 'utf8');
-  // start time of the process, since ids are used again
-  return `${process.ppid}-${stat.slice(stat.lastIndexOf(')') + 2).split(' ')[19]}`;
-};
-
-/**
- * A run of the smoke suite, made once for all files of tests: by the one that comes first, while the others wait. Tests
- * read it only.
- */
-export async function smokeRun(): Promise<string> {
-  const folder = join(binaries, 'web_runs', 'smoke');
-  const made = join(binaries, 'web_runs', 'smoke.made');
-  const [mine, failed] = [session(), `failed ${session()}`];
-  mkdirSync(join(binaries, 'web_runs'), { recursive: true });
-  try {
-    mkdirSync(join(binaries, 'web_runs', `smoke-${mine}.lock`));
-  } catch {
-    for (;;) {
-      const now = existsSync(made) ? readFileSync(made, 'utf8') : '';
-      if (now === mine) return folder;
-      assert.notEqual(now, failed, 'the smoke suite could not be run: another file of tests says why');
-      await new Promise((go) => setTimeout(go, 200));
-    }
-  }
-  for (const name of readdirSync(join(binaries, 'web_runs')))
-    if (/^smoke-.*\.lock$/.test(name) && name !== `smoke-${mine}.lock`)
-      rmSync(join(binaries, 'web_runs', name), { recursive: true });
-  try {
-    makeRunOf('smoke', 'smoke');
-    writeFileSync(made, mine);
-  } catch (error) {
-    writeFileSync(made, failed);
-    throw error;
-  }
+/** A folder that `report_tool` writes. */
+function synthetic(kind: string): string {
+  const folder = emptyFolder(kind);
+  program('tests/report_tool', kind, folder);
   return folder;
 }
+
+/** A run of the smoke suite on the engines of Debian 12, whatever else is installed: pages grow with each engine. */
+export const smokeRun = once(() => makeRunOf('smoke', 'smoke', '--engines', 'rigor,bullet,box2d,ode,fcl'));
 
 /** The report of a synthetic run with every bad ending, broken off, and of a study. */
-export function makeSynthetic(name: string): string {
-  const folder = join(binaries, 'web_runs', name);
-  rmSync(folder, { recursive: true, force: true });
-  program('tests/report_tool', 'synthetic', folder);
-  return folder;
-}
+export const makeSynthetic = once(() => synthetic('synthetic'));
 
 /** The report of a synthetic bench: growth, threads, an invalid timing, a crash, a baseline. */
-export function makeBench(name: string): string {
-  const folder = join(binaries, 'web_runs', name);
-  rmSync(folder, { recursive: true, force: true });
-  program('tests/report_tool', 'bench', folder);
-  return folder;
-}
+export const makeBench = once(() => synthetic('bench'));
 
 /** The history of three synthetic runs, the last one with one worse case. */
-export function makeHistory(name: string): string {
-  const folder = join(binaries, 'web_runs', name);
-  rmSync(folder, { recursive: true, force: true });
-  program('tests/report_tool', 'history', folder);
-  return folder;
-}
+export const makeHistory = once(() => synthetic('history'));
 
 /** The collision cases of the library that have closed forms. */
-export function makeCollide(name: string): string {
-  const folder = join(binaries, 'web_runs', name);
-  rmSync(folder, { recursive: true, force: true });
+export const makeCollide = once(() => {
+  const folder = emptyFolder('collide');
   try {
     program('bin/rigor', 'collide', 'analytic', '--engines', 'rigor,fcl', '--out', folder, '-q');
   } catch {
     // an engine may be wrong: the files are written all the same
   }
   return folder;
-}
+});
 
 /** A contact problem by two solvers, and what `rigor solve` prints of it. */
-export function makeSolve(name: string): { folder: string; json: string } {
-  const folder = join(binaries, 'web_runs', name);
-  rmSync(folder, { recursive: true, force: true });
-  mkdirSync(folder, { recursive: true });
+export const makeSolve = once((): { folder: string; json: string } => {
+  const folder = emptyFolder('solve');
+  mkdirSync(folder);
   const file = join(folder, 'stack.hdf5');
   program('bin/rigor', 'freeze', 'stack_forces', '--engine', 'rigor', '--step', '30', '--out', file);
   const options = ['--solvers', 'rigor:solver=pgs,rigor:solver=nsgs', '--iterations', '1,10,100'];
   return { folder, json: program('bin/rigor', 'solve', file, ...options, '--out', folder, '--json', '-q') };
-}
+});
 
 /** Rows of a run's store. */
 export const query = (run: string, sql: string): unknown[][] =>
@@ -167,34 +150,51 @@ export async function watched(browser: Browser, options: BrowserContextOptions =
 export interface Opened extends Watched {
   run: string;
   browser: Browser;
-  open: (hash?: string) => Promise<void>;
+  open: (hash?: string) => Promise<void>; // loads it anew
+  follow: (hash: string) => Promise<void>; // as a link within the page does, which is quicker
   text: (selector: string) => Promise<string>; // text of the first one
   clean: () => void; // asserts that there were no faults
 }
 
-/** Makes a report before the suite's tests and closes its page after them. */
-export function reportOf(make: () => string | Promise<string>): Opened {
+/** Has a report made before the suite's tests and closes its page after them. */
+export function reportOf(make: () => string): Opened {
   const it = {
     open: (hash = '') => open(it.page, it.run, hash),
+    follow: (hash: string) => follow(it.page, it.run, hash),
     text: async (selector: string) => (await it.page.locator(selector).first().textContent()) ?? '',
     clean: () => assert.deepEqual(it.faults, []),
   } as Opened;
   before(async () => {
-    it.run = await make();
+    it.run = make();
     mkdirSync(screenshots, { recursive: true });
-    it.browser = await launch();
+    it.browser = await sharedBrowser();
     Object.assign(it, await watched(it.browser));
   });
-  after(async () => {
-    await it.close?.();
-    await it.browser?.close();
-  });
+  after(() => it.close?.());
   return it;
 }
+
+/** Waits until what was requested so far is drawn. */
+export const drawn = (page: Page): Promise<unknown> =>
+  page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 
 /** Opens a part of a report and waits until it is drawn. */
 export async function open(page: Page, run: string, hash = ''): Promise<void> {
   await page.goto('about:blank');
   await page.goto(`file://${run}/index.html${hash}`);
   await page.waitForSelector('#page[data-shown]');
+}
+
+/** Goes to a part of a report without loading the page again, unless another page is open. */
+async function follow(page: Page, run: string, hash: string): Promise<void> {
+  const [address, now] = page.url().split('#');
+  if (address !== `file://${run}/index.html` || `#${now ?? ''}` === hash) {
+    await open(page, run, hash);
+    return;
+  }
+  const before = await page.getAttribute('#page', 'data-shown');
+  await page.evaluate((to) => {
+    location.hash = to;
+  }, hash);
+  await page.waitForFunction((old) => document.querySelector('#page')?.getAttribute('data-shown') !== old, before);
 }

@@ -8,7 +8,7 @@ import { describe, test } from 'node:test';
 import { makeBench, reportOf, screenshots, skip } from '../browser.ts';
 
 describe('the report of a bench', { skip }, () => {
-  const it = reportOf(() => makeBench('bench'));
+  const it = reportOf(makeBench);
 
   test('shows every case, and nothing of a validation that was not run', async () => {
     await it.open();

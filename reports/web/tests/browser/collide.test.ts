@@ -11,7 +11,7 @@ import type { Point } from '../../src/common/finding.ts';
 import { makeCollide, reportOf, screenshots, skip } from '../browser.ts';
 
 describe('the page of collision queries', { skip }, () => {
-  const it = reportOf(() => makeCollide('collide'));
+  const it = reportOf(makeCollide);
   before(() => it.page.setDefaultTimeout(60_000));
   const record = () => JSON.parse(readFileSync(join(it.run, 'collide.json'), 'utf8')) as CollideRun;
   const away = ({ from, to }: { from: Point; to: Point }) => {

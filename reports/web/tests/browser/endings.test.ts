@@ -8,7 +8,7 @@ import { describe, test } from 'node:test';
 import { makeSynthetic, reportOf, skip } from '../browser.ts';
 
 describe('the report of a run that went badly', { skip }, () => {
-  const it = reportOf(() => makeSynthetic('endings'));
+  const it = reportOf(makeSynthetic);
 
   test('says what is missing and why', async () => {
     await it.open();
@@ -35,7 +35,7 @@ describe('the report of a run that went badly', { skip }, () => {
       .evaluateAll((list) => list.map((a) => a.getAttribute('href')));
     assert.equal(links.length, 25);
     for (const link of links) {
-      await it.open(link ?? '');
+      await it.follow(link ?? '');
       assert.ok((await it.page.locator('#metrics tr[data-metric]').count()) > 0, link ?? '');
       assert.ok((await it.page.locator('#commands code').count()) > 0, link ?? '');
     }

@@ -7,19 +7,17 @@ import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
-import type { Browser, Page } from 'playwright-core';
-import { launch, skip } from '../browser.ts';
+import type { Page } from 'playwright-core';
+import { sharedBrowser, skip } from '../browser.ts';
 
 const site = join(process.env.RIGOR_BINARY_DIR ?? '', 'handbook');
 const missing = existsSync(join(site, 'en/build/state.html')) ? false : './rigor docs has not been run';
 
 describe('the handbook', { skip: skip || missing }, () => {
-  let browser: Browser;
   let page: Page;
   const trouble: string[] = [];
   before(async () => {
-    browser = await launch();
-    page = await browser.newPage({ viewport: { width: 1200, height: 900 } });
+    page = await (await sharedBrowser()).newPage({ viewport: { width: 1200, height: 900 } });
     page.on('console', (message) => {
       if (message.type() === 'error') trouble.push(message.text());
     });
@@ -28,7 +26,7 @@ describe('the handbook', { skip: skip || missing }, () => {
       if (!/^(file|data):/.test(request.url())) trouble.push(`request of ${request.url()}`);
     });
   });
-  after(() => browser?.close());
+  after(() => page?.close());
 
   const open = (path: string) => page.goto(`file://${join(site, path)}`);
   /** The picture of the first scene as text. */

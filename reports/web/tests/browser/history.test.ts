@@ -10,7 +10,7 @@ import type { History } from '../../src/history/data.ts';
 import { makeHistory, program, reportOf, screenshots, skip, smokeRun } from '../browser.ts';
 
 describe('the history of three runs', { skip }, () => {
-  const it = reportOf(() => makeHistory('history'));
+  const it = reportOf(makeHistory);
   const stored = (): History => {
     const page = readFileSync(join(it.run, 'index.html'), 'utf8');
     return JSON.parse(/id="history-data">(.*?)<\/script>/s.exec(page)?.[1] ?? '') as History;
@@ -62,8 +62,8 @@ describe('the history of three runs', { skip }, () => {
 });
 
 describe('two runs with their replays', { skip }, () => {
-  const it = reportOf(async () => {
-    const run = await smokeRun();
+  const it = reportOf(() => {
+    const run = smokeRun();
     const folder = join(run, '..', 'two_runs');
     program('bin/rigor', 'history', run, run, '--out', folder);
     return folder;

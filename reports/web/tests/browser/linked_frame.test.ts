@@ -160,15 +160,6 @@ describe('links of the contact audit', { skip }, () => {
     await it.page.setViewportSize({ width: 800, height: 600 });
   });
 
-  /** Follows a link within the page. */
-  async function follow(href: string): Promise<void> {
-    const before = await it.page.getAttribute('#page', 'data-shown');
-    await it.page.evaluate((hash) => {
-      location.hash = hash;
-    }, href);
-    await it.page.waitForFunction((old) => document.querySelector('#page')?.getAttribute('data-shown') !== old, before);
-  }
-
   /** Inspected values once the frame of a step is drawn. */
   async function seen(spec: string, step: number): Promise<Seen> {
     await it.page.waitForSelector('.replay canvas');
@@ -288,7 +279,7 @@ describe('links of the contact audit', { skip }, () => {
         const places = new Set(mine.map((href) => `${wanted('step')(href)} ${wanted('contact')(href)}`));
         assert.equal(places.size, 1, `all to the same contact: ${[...places]}`);
         const step = Number(wanted('step')(mine[0] as string));
-        await follow(mine[0] as string);
+        await it.follow(mine[0] as string);
         const saw = await seen(spec, step);
         const states = statesOf(fileOf(name), spec, join(folder, `${name}.csv`));
         const angle = wrongBy(saw, states);

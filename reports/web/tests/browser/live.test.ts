@@ -11,7 +11,7 @@ import { after, before, test } from 'node:test';
 import type { Browser, Page } from 'playwright-core';
 import { ArrayBundle } from '../../src/common/arrays.ts';
 import type { News } from '../../src/live/api.ts';
-import { launch, skip } from '../browser.ts';
+import { drawn, sharedBrowser, skip } from '../browser.ts';
 import { shoot, view, watched } from '../live_program.ts';
 
 const binaries = process.env.RIGOR_BINARY_DIR ?? '';
@@ -19,12 +19,9 @@ let browser: Browser;
 const saved = mkdtempSync(join(tmpdir(), 'rigor-live-'));
 
 before(async () => {
-  if (!skip) browser = await launch();
+  if (!skip) browser = await sharedBrowser();
 });
-after(async () => {
-  await browser?.close();
-  rmSync(saved, { recursive: true, force: true });
-});
+after(() => rmSync(saved, { recursive: true, force: true }));
 
 /** Current state of the server, requested by the page itself. */
 async function now(page: Page): Promise<News> {
@@ -48,7 +45,7 @@ async function findBody(page: Page, name: string): Promise<[number, number]> {
     for (let i = 1; i < 24; ++i) {
       const [x, y] = [box.x + (box.width * i) / 24, box.y + (box.height * j) / 24];
       await page.mouse.move(x, y);
-      await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+      await drawn(page);
       const text = await page.locator('.inspector [data-quantity="body"]').allInnerTexts();
       if (text[0]?.startsWith(name)) return [x, y];
     }
@@ -183,7 +180,6 @@ test('a person plays, looks inside a step, drags, branches and saves', { skip },
     await page.waitForFunction(() => Number.parseFloat(document.querySelector('.clock')?.textContent ?? '') > 0.6);
     await page.keyboard.press(' ');
     await page.waitForSelector('[data-action="play"][aria-pressed="false"]');
-    await page.waitForTimeout(300);
     const { arrays } = await now(page);
     assert.notEqual(arrays.get('0/position')[3], arrays.get('1/position')[3], 'the branch slides farther');
     await shoot(page, 'live-beside');
@@ -202,10 +198,10 @@ test('a person plays, looks inside a step, drags, branches and saves', { skip },
     await page.mouse.move(x, y - 40, { steps: 5 });
     await page.mouse.move(x, y - 90, { steps: 5 });
     await page.waitForSelector('svg.spring line', { state: 'attached' });
-    await page.waitForTimeout(1200);
+    const end = Date.now() + 30_000;
+    const height = async () => (await now(page)).arrays.get('0/position')[4] as number;
+    while ((await height()) <= from + 0.05) assert.ok(Date.now() < end, 'it is lifted');
     await shoot(page, 'live-drag');
-    const held = await now(page);
-    assert.ok((held.arrays.get('0/position')[4] as number) > from + 0.05, 'it is lifted');
     await page.mouse.up();
     await page.waitForFunction(() => document.querySelector('svg.spring line') === null);
     await page.keyboard.press(' ');

@@ -9,7 +9,7 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { before, describe, test } from 'node:test';
-import { open, reportOf, screenshots, skip, smokeRun, watched } from '../browser.ts';
+import { drawn, open, reportOf, screenshots, skip, smokeRun, watched } from '../browser.ts';
 
 const scenarios = ['box_stack', 'asymmetric_top', 'pendulum_chain', 'slip_to_roll_2d', 'bouncing_disc_2d'];
 
@@ -67,7 +67,7 @@ describe('the replay of a real run', { skip }, () => {
     );
     await press(' ');
     const paused = await time();
-    await it.page.waitForTimeout(300);
+    for (let k = 0; k < 5; ++k) await drawn(it.page);
     assert.equal(await time(), paused, 'it stands still');
     const bar = await it.page.locator('.replay .timeline input').boundingBox();
     assert.ok(bar);
@@ -182,10 +182,10 @@ describe('the replay of a real run', { skip }, () => {
       await press('e');
       for (const name of ['penetration', 'impulses', 'velocities', 'spins', 'bounds', 'trails'])
         await it.page.click(`.replay [data-switch="${name}"]`);
-      await it.page.waitForTimeout(200);
+      await drawn(it.page);
       await it.page.locator('#replay').screenshot({ path: join(screenshots, `replay-${scenario}.png`) });
       await it.page.emulateMedia({ colorScheme: 'dark' });
-      await it.page.waitForTimeout(200);
+      await drawn(it.page);
       await it.page.locator('#replay').screenshot({ path: join(screenshots, `replay-${scenario}-dark.png`) });
       await it.page.emulateMedia({ colorScheme: 'light' });
       it.clean();

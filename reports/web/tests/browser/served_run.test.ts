@@ -8,7 +8,7 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { launch, skip } from '../browser.ts';
+import { sharedBrowser, skip } from '../browser.ts';
 import { view, watched } from '../live_program.ts';
 
 test('a recorded run is served with all its frames', { skip }, async (t) => {
@@ -24,9 +24,8 @@ test('a recorded run is served with all its frames', { skip }, async (t) => {
   }
   const served = await view([run]);
   t.after(() => served.end());
-  const browser = await launch();
-  t.after(() => browser.close());
-  const { page, faults } = await watched(browser, served);
+  const { page, context, faults } = await watched(await sharedBrowser(), served);
+  t.after(() => context.close());
   await page.goto(served.url);
   await page.waitForSelector('#page[data-shown]');
   await page.goto(`${served.origin}/#/scenario/pile`);

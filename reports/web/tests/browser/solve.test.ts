@@ -12,7 +12,7 @@ import { makeSolve, reportOf, screenshots, skip } from '../browser.ts';
 describe('the page of a contact problem', { skip }, () => {
   let record: { problems: SolveProblem[] };
   const it = reportOf(() => {
-    const { folder, json } = makeSolve('solve');
+    const { folder, json } = makeSolve();
     record = JSON.parse(json);
     return folder;
   });

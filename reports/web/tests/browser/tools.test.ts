@@ -7,7 +7,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { before, describe, test } from 'node:test';
-import { reportOf, screenshots, skip, smokeRun, watched } from '../browser.ts';
+import { drawn, reportOf, screenshots, skip, smokeRun, watched } from '../browser.ts';
 
 describe('tools of the replay', { skip }, () => {
   const it = reportOf(smokeRun);
@@ -81,7 +81,7 @@ describe('tools of the replay', { skip }, () => {
     const [from, start] = [await target(), await body()];
     await stage('stage.setTime(0.5)');
     await it.page.waitForFunction(() => document.querySelector('.replay .clock')?.textContent?.startsWith('0.5'));
-    await it.page.waitForTimeout(200);
+    await drawn(it.page);
     const [to, end] = [await target(), await body()];
     const moved = Math.hypot(...end.map((x, k) => x - (start[k] as number)));
     assert.ok(moved > 0.1, `it flies: ${moved} m`);
