@@ -253,8 +253,9 @@ void World<S>::wake(BodyId body) {
 template <class S>
 void World<S>::putToSleep(BodyId body) {
     requireBetweenSteps();
-    require(parts_.algorithms.sleeping.wake != nullptr, "sleeping",
-            "a body that sleeps needs a world whose sleeping wakes it");
+    if (parts_.algorithms.sleeping.wake == nullptr)
+        throw EngineError("sleeping", "found sleeping=" + parts_.def.sleeping +
+                                          ", expected sleeping=islands, which wakes what sleeps");
     const Islands& islands = parts_.currentIslands();
     const std::uint32_t island = islands.islandOf(parts_.bodies.dense(body));
     if (island == kNullIndex) return;
