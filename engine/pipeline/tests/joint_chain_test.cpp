@@ -154,9 +154,18 @@ TYPED_TEST(Chains, AHundredLinksUnderAHundredTimesTheirMassKeepTheirEnergy) {
 /// that, and position correction holds them together.
 TYPED_TEST(Chains, HoldAWeightWhoseVibrationNoStepFollows) {
     using S = TypeParam;
-    for (const char* integrator : {"symplectic_euler", "moreau_midpoint"}) {
+    struct Case {
+        const char* integrator;
+        double gravity;  ///< share of the usual one
+    };
+    for (const auto& [integrator, gravity] : {Case{"symplectic_euler", 1},
+                                              {"symplectic_euler", 0.989},
+                                              {"symplectic_euler", 0.999},
+                                              {"symplectic_euler", 1.009},
+                                              {"moreau_midpoint", 1}}) {
         WorldDef<S> def = stepped<S>(1);
         def.integrator = integrator;
+        def.gravity *= static_cast<typename S::Real>(gravity);
         Jointed<S> scene(def);
         scene.chain(9, 100);
         const double start = scene.energy(), fall = Jointed<S>::fall(9, 100);
@@ -166,8 +175,8 @@ TYPED_TEST(Chains, HoldAWeightWhoseVibrationNoStepFollows) {
             most = std::max(most, std::abs(scene.energy() - start));
             gap = std::max(gap, scene.gap());
         }
-        EXPECT_LT(most, 0.05 * fall) << integrator;
-        EXPECT_LT(gap, 1e-3) << integrator;
+        EXPECT_LT(most, 0.05 * fall) << integrator << " " << gravity;
+        EXPECT_LT(gap, 1e-3) << integrator << " " << gravity;
     }
 }
 

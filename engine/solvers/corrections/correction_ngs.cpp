@@ -36,9 +36,10 @@ class Ngs final : public PositionCorrection<S> {
             correctContacts(problem, slop);
             problem.applyRotations();
             if (!(error < Real(0.5) * last)) {
-                // Rounding reached, or too far off for Newton's iteration: joint by joint is slow and sure.
+                // Rounding is reached, or Newton's iteration has been too far off. Where it brings nothing at all, joint by
+                // joint is slow and sure.
                 if (problem.contactCount() == 0 && !limited_ && error < kRounding) break;
-                together = together && error < kRounding;
+                if (!(error < last)) together = together && error < kRounding;
             }
             last = error;
         }
