@@ -100,7 +100,7 @@ hid_t writeValues(hid_t file, const std::string& path, const std::vector<T>& val
         check(H5Pset_deflate(properties, kDeflateLevel), what);
     }
     const hid_t set = H5Dcreate2(file, path.c_str(), fileType, space, H5P_DEFAULT, properties, H5P_DEFAULT);
-    check(set < 0 ? -1 : 0, what);
+    if (set < 0) failed(what);
     if (!values.empty() && H5Dwrite(set, memoryType, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
         H5Dclose(set);
         failed(what);

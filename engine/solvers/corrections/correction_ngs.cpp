@@ -39,7 +39,7 @@ class Ngs final : public PositionCorrection<S> {
                 // Rounding is reached, or Newton's iteration has been too far off. Where it brings nothing at all, joint by
                 // joint is slow and sure.
                 if (problem.contactCount() == 0 && !limited_ && error < kRounding) break;
-                if (!(error < last)) together = together && error < kRounding;
+                together = together && (error < last || error < kRounding);
             }
             last = error;
         }
