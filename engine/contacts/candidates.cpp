@@ -119,6 +119,7 @@ void Candidates<S>::merge(const BodyArrays<S>& bodies, const ShapeSet<S>& shapes
     list_.order().clear();
     keys_.clear();
     const bool hadPieces = std::exchange(havePieces_, false);
+    if (pairs.size() > oldKeys_.size()) list_.reserve(pairs.size() - oldKeys_.size());
     Merge<S> merge(list_, keys_, oldOrder_, oldKeys_, orphans_, hadPieces);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         if (mayCollideHolds_ && !hadPieces) k += merge.keepRun(pairs, k);

@@ -18,6 +18,8 @@ void ContactEvents<S>::add(const BodyArrays<S>& bodies, std::span<const ShapeRec
     touchChanged_.resize(contacts.size());
     tasks.forEach(contacts.size(), kContactGrain,
                   [&](std::size_t k) { touchChanged_[k] = contacts[k].touching != contacts[k].touched; });
+    const auto changes = std::count(touchChanged_.begin(), touchChanged_.end(), std::uint8_t(1));
+    events.reserve(events.size() + static_cast<std::size_t>(changes) + ended.size());
     const auto key = [](const auto& c) { return std::pair(pairKey(c.shapeA, c.shapeB), c.piece); };
     const auto append = [&](EventKind kind, const auto& c) -> Event<S>& {
         Event<S>& event = events.emplace_back();

@@ -23,7 +23,7 @@ template <class S>
 void ContactFinder<S>::run(const ContactUpdate<S>& update, bool exact, Candidates<S>& candidates,
                            ContactList<S>& contacts, const Tasks& tasks) {
     SlotList<Candidate<S>>& list = candidates.list();
-    // Each new contact takes the next element of begun_; those beyond its size are computed again later.
+    // Each new contact takes the next element of begun_.
     std::atomic<std::uint32_t> taken = 0;
     const Tasks& those = update.narrowPhase.manyThreads() ? tasks : Tasks::one();
     const bool looksAhead = update.ahead.looksAhead();
@@ -41,10 +41,11 @@ void ContactFinder<S>::run(const ContactUpdate<S>& update, bool exact, Candidate
         if (const std::optional<Contact<S>> contact = update.find(candidate)) {
             candidate.found = true;
             candidate.begun = taken.fetch_add(1, std::memory_order_relaxed);
-            if (candidate.begun < begun_.size()) begun_[candidate.begun] = *contact;
+            begun_.put(candidate.begun, *contact);
         }
     };
     outcomes_.resize(list.size());
+    begun_.require(list.size());
     counters_.resize((list.size() + kBatch - 1) / kBatch);
     those.forEach(counters_.size(), 1, [&](std::size_t c) {
         Counters counters;
@@ -61,14 +62,12 @@ void ContactFinder<S>::run(const ContactUpdate<S>& update, bool exact, Candidate
         }
         counters_[c] = counters;
     });
-    commit(update, candidates, contacts, tasks);
-    if (begun_.size() < taken) begun_.resize(taken);
+    commit(candidates, contacts, tasks);
 }
 
 /// Removes the contacts that have ended and inserts the new ones.
 template <class S>
-void ContactFinder<S>::commit(const ContactUpdate<S>& update, Candidates<S>& candidates,
-                              ContactList<S>& contacts, const Tasks& tasks) {
+void ContactFinder<S>::commit(Candidates<S>& candidates, ContactList<S>& contacts, const Tasks& tasks) {
     SlotList<Candidate<S>>& list = candidates.list();
     ended_.clear();
     Counters all;
@@ -79,10 +78,11 @@ void ContactFinder<S>::commit(const ContactUpdate<S>& update, Candidates<S>& can
     queries_ = all.queried;
     if (all.persisting == contacts.size() && all.begun == 0) return;
 
+    contacts.reserve(all.begun);
     for (const std::uint32_t slot : candidates.orphans()) removeContact(contacts, slot);
     candidates.orphans().clear();
     for (std::size_t c = 0; c < counters_.size(); ++c)
-        if (counters_[c].ended + counters_[c].begun > 0) changeContacts(update, list, contacts, c);
+        if (counters_[c].ended + counters_[c].begun > 0) changeContacts(list, contacts, c);
     std::sort(ended_.begin(), ended_.end(), [](const EndedContact& c, const EndedContact& d) {
         return std::pair(pairKey(c.shapeA, c.shapeB), c.piece) <
                std::pair(pairKey(d.shapeA, d.shapeB), d.piece);
@@ -100,13 +100,13 @@ void ContactFinder<S>::commit(const ContactUpdate<S>& update, Candidates<S>& can
 
 /// Frees the slots of ended contacts of a batch of candidates, and takes slots for new ones.
 template <class S>
-void ContactFinder<S>::changeContacts(const ContactUpdate<S>& update, SlotList<Candidate<S>>& candidates,
-                                      ContactList<S>& contacts, std::size_t batch) {
+void ContactFinder<S>::changeContacts(SlotList<Candidate<S>>& candidates, ContactList<S>& contacts,
+                                      std::size_t batch) {
     for (std::size_t k = kBatch * batch; k < endOf(batch, candidates.size()); ++k) {
         const Outcome& outcome = outcomes_[k];
         if ((outcome.contact != kNullIndex) == outcome.found) continue;
         if (outcome.found) {
-            addContact(update, candidates[k], contacts);
+            candidates[k].contact = contacts.add();  // orderContacts copies it there from begun_
             continue;
         }
         removeContact(contacts, outcome.contact);
@@ -123,8 +123,7 @@ void ContactFinder<S>::orderContacts(const SlotList<Candidate<S>>& candidates, C
         if (!outcomes_[k].found) continue;
         const std::uint32_t had = outcomes_[k].contact;
         *order++ = had != kNullIndex ? had : candidates[k].contact;
-        if (had == kNullIndex && candidates[k].begun < begun_.size())
-            contacts.at(candidates[k].contact) = begun_[candidates[k].begun];
+        if (had == kNullIndex) contacts.at(candidates[k].contact) = begun_[candidates[k].begun];
     }
 }
 
@@ -133,18 +132,6 @@ void ContactFinder<S>::removeContact(ContactList<S>& contacts, std::uint32_t slo
     const Contact<S>& c = contacts.at(slot);
     if (c.touching) ended_.push_back({c.bodyA, c.bodyB, c.shapeA, c.shapeB, c.piece});
     contacts.remove(slot);
-}
-
-/// Takes a slot for a new contact; orderContacts copies it there from begun_.
-template <class S>
-void ContactFinder<S>::addContact(const ContactUpdate<S>& update, Candidate<S>& candidate,
-                                  ContactList<S>& contacts) {
-    const std::uint32_t slot = contacts.add();
-    if (candidate.begun >= begun_.size()) {
-        candidate.cached = false;  // the manifold itself was not stored
-        contacts.at(slot) = update.find(candidate).value();
-    }
-    candidate.contact = slot;
 }
 
 RIGOR_INSTANTIATE_CLASS(ContactFinder)

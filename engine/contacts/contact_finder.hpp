@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "engine/contacts/contact_update.hpp"
+#include "engine/core/large_vector.hpp"
 
 namespace rigor::engine {
 
@@ -64,17 +65,14 @@ class ContactFinder {
         }
     };
 
-    void commit(const ContactUpdate<S>& update, Candidates<S>& candidates, ContactList<S>& contacts,
-                const Tasks& tasks);
-    void changeContacts(const ContactUpdate<S>& update, SlotList<Candidate<S>>& candidates,
-                        ContactList<S>& contacts, std::size_t batch);
+    void commit(Candidates<S>& candidates, ContactList<S>& contacts, const Tasks& tasks);
+    void changeContacts(SlotList<Candidate<S>>& candidates, ContactList<S>& contacts, std::size_t batch);
     void orderContacts(const SlotList<Candidate<S>>& candidates, ContactList<S>& contacts, std::size_t batch);
     void removeContact(ContactList<S>& contacts, std::uint32_t slot);
-    void addContact(const ContactUpdate<S>& update, Candidate<S>& candidate, ContactList<S>& contacts);
 
     std::vector<Outcome> outcomes_;   ///< outcome of each candidate
     std::vector<Counters> counters_;  ///< counters of each batch of candidates
-    std::vector<Contact<S>> begun_;   ///< new contacts of this step
+    LargeScratch<Contact<S>> begun_;  ///< new contacts of this step
     std::vector<EndedContact> ended_;
     std::size_t queries_ = 0;
 };

@@ -7,12 +7,14 @@
 //     slots  [ b | - | a | c ]      slot 1 is free
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "engine/core/large_vector.hpp"
 #include "engine/core/tasks.hpp"
 
 namespace rigor::engine {
@@ -51,6 +53,10 @@ class SlotList {
     /// Slots in the order of the list. A caller of add() or remove() updates it.
     std::vector<std::uint32_t>& order() { return order_; }
     const std::vector<std::uint32_t>& order() const { return order_; }
+    /// Room for `more` calls of add().
+    void reserve(std::size_t more) {
+        if (more > free_.size()) reserveToGrow(slots_, slots_.size() + more - free_.size());
+    }
     /// Takes a slot that is not in order() yet. Its value is unspecified.
     std::uint32_t add() {
         ++changes_;
@@ -71,13 +77,14 @@ class SlotList {
     bool fragmented() const { return changes_ > size() / 4; }
     /// Moves the item of each position k to slot k.
     void defragment(const Tasks& tasks) {
+        changes_ = 0;
+        if (order_.size() == slots_.size() && std::is_sorted(order_.begin(), order_.end())) return;
         constexpr std::size_t kGrain = 32;  // least number of slots for a task: some microseconds of work
         spare_.reserve(slots_.capacity());
         spare_.resize(order_.size());
         tasks.forEach(order_.size(), kGrain, [this](std::size_t k) { spare_[k] = slots_[order_[k]]; });
         std::swap(slots_, spare_);
         free_.clear();
-        changes_ = 0;
         std::iota(order_.begin(), order_.end(), 0u);
     }
 
@@ -96,7 +103,7 @@ class SlotList {
     }
 
   private:
-    std::vector<T> slots_, spare_;
+    LargeVector<T> slots_, spare_;
     std::vector<std::uint32_t> order_, free_;
     std::size_t changes_ = 0;  ///< changes since the last defragment()
 };

@@ -47,6 +47,17 @@ TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
     for (std::uint32_t k = 0; k < names.size(); ++k) EXPECT_EQ(list.order()[k], k);
 }
 
+TEST(ContactList, LeavesContactsThatAreInOrderWhereTheyAre) {
+    SlotList<Contact<Space2f>> list;
+    list.reserve(100);
+    for (std::uint32_t k = 0; k < 100; ++k) list.order().push_back(list.add());
+    const Contact<Space2f>* const first = &list[0];
+    ASSERT_TRUE(list.fragmented());
+    list.defragment(Tasks::one());
+    EXPECT_EQ(&list[0], first);
+    EXPECT_FALSE(list.fragmented());
+}
+
 /// Known pairs are not tested again by the collision filter; a joint that comes in between is seen.
 TEST(ContactList, JointBetweenBodiesThatTouchEndsTheirContact) {
     WorldDef<Space2f> def;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/core/ids.hpp"
+#include "engine/core/large_vector.hpp"
 #include "engine/core/tasks.hpp"
 #include "engine/solvers/wide/colouring.hpp"
 #include "engine/solvers/wide/kernels.hpp"
@@ -128,8 +129,8 @@ class Patches {
                                                ///< partitions
     std::vector<Stage> stages_;                ///< stages of the ranges, then of the partitions
     std::vector<Colouring::Split> splits_;     ///< splits of all stages
-    std::vector<PatchBlock<F>> blocks_;
-    std::vector<PatchColdData<F>> cold_;
+    LargeVector<PatchBlock<F>> blocks_;
+    LargeVector<PatchColdData<F>> cold_;
     // --- by body
     std::vector<PatchInertia<F>> inertia_;
     std::vector<Velocity<F>> motions_;
