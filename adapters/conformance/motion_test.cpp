@@ -212,10 +212,12 @@ TEST_P(Motion, KinematicBodiesKeepTheirVelocity) {
     EXPECT_GT(stateOf(*world, s, pushed).position.x, 0.8) << "the kinematic body pushes";
 }
 
+/// About their origin, wherever their shapes are.
 TEST_P(Motion, KinematicBodiesTurn) {
     Scenario s = scene();
     const int k = addBody(s, block({0.5, 0.5, 0.5}), {});
     s.bodies[0].type = BodyType::Kinematic;
+    s.bodies[0].shapes[0].pose.position = {0.4, 0.0, 0.0};
     s.bodies[0].massProperties = {};
     s.bodies[0].angularVelocity = {0.0, 0.0, 1.5};
     if (!engine().capabilities().kinematicBodies) GTEST_SKIP() << "no kinematic bodies";
@@ -223,6 +225,7 @@ TEST_P(Motion, KinematicBodiesTurn) {
     run(*world, 240);
     within("kinematic_angle", angleBetween(stateOf(*world, s, k).orientation, fromAxisAngle({0, 0, 1}, 1.5)),
            tol(2e-5, 2e-3));
+    within("kinematic_origin", norm(stateOf(*world, s, k).position), tol(1e-12, 1e-5));
 }
 
 }  // namespace

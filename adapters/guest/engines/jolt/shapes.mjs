@@ -93,8 +93,10 @@ export function shapeOf(body, radius) {
         );
     });
     const shape = create(whole, user);
-    if (body.type !== 'dynamic') return shape;
-    const offset = rg.difference(body.center_of_mass, vector(shape.GetCenterOfMass()));
+    if (body.type === 'static') return shape;
+    // The library turns kinematic bodies about the centre of mass of their shapes, the scenario about their origin.
+    const center = body.type === 'kinematic' ? [0, 0, 0] : body.center_of_mass;
+    const offset = rg.difference(center, vector(shape.GetCenterOfMass()));
     if (rg.norm(offset) === 0) return shape;
     return create(withVec3(offset, (v) => new J.OffsetCenterOfMassShapeSettings(v, whole)), user);
 }

@@ -14,6 +14,9 @@ const kCombination = 'geometry/collider.d.ts, setFrictionCombineRule: one rule f
 /** Rapier multiplies a velocity by 1 / (1 + c dt), once a step; c for what is kept of it per second. */
 const dampingFor = (kept, dt) => (kept ** -dt - 1) / dt;
 
+/** Kinematic bodies turn about a centre of mass, which without one is that of their shapes. The scenario's turn about their origin. */
+const kAboutOrigin = { mass: 1, center_of_mass: [0, 0, 0], inertia: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
+
 export class RapierWorld extends rg.World {
     impulses = true;
     set_states = 'kept';
@@ -81,7 +84,7 @@ export class RapierWorld extends rg.World {
     descOf(body, frame) {
         const { RigidBodyDesc } = this.space.RAPIER;
         if (body.type === 'static') return RigidBodyDesc.fixed();
-        if (body.type === 'kinematic') return RigidBodyDesc.kinematicVelocityBased();
+        if (body.type === 'kinematic') return this.space.withMass(RigidBodyDesc.kinematicVelocityBased(), kAboutOrigin, frame);
         return this.space
             .withMass(RigidBodyDesc.dynamic(), body, frame)
             .setGravityScale(body.gravity_scale)
