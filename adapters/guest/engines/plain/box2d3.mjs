@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import init from 'box2d3-wasm';
+import { pullOf } from './scene.mjs';
 
 const B = await init();
 
-export const engine = 'box2d3:preset=default';
 export const bound = 2e-5; // single precision
-export const scenes = ['hanging_chain_mode_2d', 'bouncing_disc_2d', 'backspin_2d', 'box_stack_2d'];
+export const scenes = {
+    default: ['hanging_chain_mode_2d', 'bouncing_disc_2d', 'backspin_2d', 'box_stack_2d', 'andrews_squeezer_2d'],
+    matched: ['andrews_squeezer_2d', 'hanging_chain_mode_2d', 'bouncing_disc_2d'],
+};
 
 const vector = ([x, y]) => new B.b2Vec2(x, y);
 
@@ -34,12 +37,28 @@ function addHinge(world, { anchorA, anchorB }, [a, angleA], [b, angleB]) {
     B.b2CreateRevoluteJoint(world, def);
 }
 
-export function start({ gravity, dt, friction, restitution, bodies, joints }) {
+/** Forces act during the next step. */
+function push(body, { spring, constant }) {
+    if (constant) {
+        B.b2Body_ApplyTorque(body, constant.torque, true);
+        return;
+    }
+    const { x, y } = B.b2Body_GetWorldPoint(body, vector(spring.anchor));
+    B.b2Body_ApplyForce(body, vector(pullOf(spring, [x, y])), new B.b2Vec2(x, y), true);
+}
+
+/** What the preset `matched` changes. */
+const kWorld = { enableSleep: false, enableContinuous: false, restitutionThreshold: 0, maximumLinearSpeed: 1e6 };
+const kBody = { enableSleep: false, allowFastRotation: true };
+
+export function start({ preset, gravity, dt, friction, restitution, bodies, joints, forces }) {
     const worldDef = B.b2DefaultWorldDef();
     worldDef.gravity = vector(gravity);
+    if (preset === 'matched') Object.assign(worldDef, kWorld);
     const world = B.b2CreateWorld(worldDef);
     const made = bodies.map((b) => {
         const def = B.b2DefaultBodyDef();
+        if (preset === 'matched') Object.assign(def, kBody);
         def.type = b.isStatic ? B.b2BodyType.b2_staticBody : B.b2BodyType.b2_dynamicBody;
         def.position = vector(b.position);
         def.linearVelocity = vector(b.velocity);
@@ -71,7 +90,10 @@ export function start({ gravity, dt, friction, restitution, bodies, joints }) {
     const sideOf = (k) => (k < 0 ? [outside(), 0] : [made[k], bodies[k].angle]);
     for (const joint of joints) addHinge(world, joint, sideOf(joint.a), sideOf(joint.b));
     return {
-        step: () => B.b2World_Step(world, dt, 4),
+        step() {
+            for (const force of forces) push(made[(force.spring ?? force.constant).body], force);
+            B.b2World_Step(world, dt, 4);
+        },
         positions: () => made.map((body) => B.b2Body_GetPosition(body)).map(({ x, y }) => [x, y, 0]),
     };
 }

@@ -17,7 +17,8 @@ if (!existsSync(modules)) process.exit(77);
 /** Rows of `rigor run --csv`: for every step the positions of the bodies. */
 function throughTheGuest(scene, engine) {
     // Its exit code says how well the engine did.
-    const { stdout: out } = spawnSync(rigor, ['run', scene.name, '--engine', engine, '--dt', String(scene.dt), '--csv', '-'], {
+    const told = scene.told.flatMap((value) => ['--set', value]);
+    const { stdout: out } = spawnSync(rigor, ['run', scene.name, '--engine', engine, '--dt', String(scene.dt), ...told, '--csv', '-'], {
         maxBuffer: 1 << 28,
         stdio: ['ignore', 'pipe', 'inherit'],
         encoding: 'utf8',
@@ -40,19 +41,22 @@ function greatestDistance(plain, guest) {
             greatest = Math.max(greatest, Math.hypot(...p.map((x, axis) => x - positions[i][axis])));
         });
     });
+    plain.end?.();
     return greatest;
 }
 
 let failed = 0;
 for (const name of named.length > 0 ? named : engines) {
     const program = await import(`./${name}.mjs`);
-    for (const each of program.scenes) {
-        const scene = read(each);
-        const guest = throughTheGuest(scene, program.engine).slice(0, 1 + (program.steps?.[each] ?? Infinity));
+    const runs = Object.entries(program.scenes).flatMap(([preset, scenes]) => scenes.map((each) => [preset, each]));
+    for (const [preset, each] of runs) {
+        const scene = read(each, preset);
+        const guest = throughTheGuest(scene, `${name}:preset=${preset}`).slice(0, 1 + (program.steps?.[each] ?? Infinity));
         const distance = greatestDistance(program.start(scene), guest);
         const isAlike = guest.length > 1 && distance <= program.bound;
         failed += isAlike ? 0 : 1;
-        console.log(`${isAlike ? 'alike ' : 'DIFFER'} ${name} ${each}: ${distance.toExponential(1)} m in ${guest.length - 1} steps`);
+        const found = `${distance.toExponential(1)} m in ${guest.length - 1} steps`;
+        console.log(`${isAlike ? 'alike ' : 'DIFFER'} ${name} ${preset} ${each}: ${found}`);
     }
     for (const [sentence, holds] of program.findings?.(read) ?? []) {
         failed += holds ? 0 : 1;

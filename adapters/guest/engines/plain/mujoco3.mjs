@@ -5,10 +5,12 @@ import { inBody } from './scene.mjs';
 
 const M = await load();
 
-export const engine = 'mujoco3:preset=default';
 export const bound = 1e-8;
 // The chain leaves every number after 1.03 s at this step, in both; from 0.5 s on what is 1e-9 m apart before grows.
-export const scenes = ['heavy_top_fast', 'heavy_top_steady', 'heavy_top_nutation', 'heavy_end_chain', 'slide_and_stop'];
+export const scenes = {
+    default: ['heavy_top_fast', 'heavy_top_steady', 'heavy_top_nutation', 'heavy_end_chain', 'slide_and_stop'],
+    matched: ['heavy_top_fast', 'heavy_top_steady', 'heavy_top_nutation', 'slide_and_stop'],
+};
 export const steps = { heavy_end_chain: 20 };
 
 /** The chain as the library means chains: bodies in bodies, from its last link to its first. */
@@ -45,14 +47,20 @@ function freeBody(b, k) {
     return `<body ${placed}>${b.isStatic ? '' : '<freejoint/>'}${geom}</body>`;
 }
 
-function xmlOf({ gravity, dt, friction, bodies, chains, joints }) {
+/** Attributes of options and of contacts that the preset `matched` changes. */
+const kOption = 'cone="elliptic" impratio="10" iterations="500" tolerance="1e-12"';
+const kSolimp = 'solimp="0.99 0.999 0.001"';
+
+function xmlOf({ preset, gravity, dt, friction, bodies, chains, joints }) {
     const joined = (b, k) => joints.find((joint) => joint.b === k);
     const bodyOf = (b, k) => (joined(b, k) ? topOf(b, k, joined(b, k)) : freeBody(b, k));
+    const isMatched = preset === 'matched';
     const tree = chains.map(chain).join('') + bodies.map(bodyOf).join('');
+    const softness = isMatched ? `solref="${2 * dt} 1" ${kSolimp}` : `solref="${Math.max(0.02, 2 * dt)} 1"`;
     return `<mujoco>
         <compiler angle="degree"/>
-        <option timestep="${dt}" gravity="${gravity.join(' ')}"><flag autoreset="disable"/></option>
-        <default><geom friction="${friction} 0 0" condim="${friction > 0 ? 3 : 1}" solref="${Math.max(0.02, 2 * dt)} 1"/></default>
+        <option ${isMatched ? kOption : ''} timestep="${dt}" gravity="${gravity.join(' ')}"><flag autoreset="disable"/></option>
+        <default><geom friction="${friction} 0 0" condim="${friction > 0 ? 3 : 1}" ${softness}/></default>
         <worldbody>${tree}</worldbody></mujoco>`;
 }
 

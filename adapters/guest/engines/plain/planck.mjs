@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-import { BoxShape, CircleShape, RevoluteJoint, World } from 'planck';
+import { BoxShape, CircleShape, RevoluteJoint, Settings, World } from 'planck';
 
-export const engine = 'planck:preset=default';
 export const bound = 1e-9;
-export const scenes = ['dominoes_2d', 'hanging_chain_mode_2d', 'bouncing_disc_2d', 'backspin_2d', 'box_stack_2d'];
+export const scenes = {
+    default: ['dominoes_2d', 'hanging_chain_mode_2d', 'bouncing_disc_2d', 'backspin_2d', 'box_stack_2d'],
+    matched: ['four_bar_linkage_2d', 'physical_pendulum_2d', 'turning_pendulum_2d'],
+};
 
-export function start({ gravity, dt, friction, restitution, bodies, joints }) {
-    const world = new World({ gravity: { x: gravity[0], y: gravity[1] } });
+const { linearSlop, velocityThreshold, maxTranslation, maxRotation } = Settings;
+/** Settings of the process, options of a world, and iterations. `default` is what the library has. */
+const presets = {
+    default: { settings: { linearSlop, velocityThreshold, maxTranslation, maxRotation }, options: {}, iterations: [8, 3] },
+    matched: {
+        settings: { linearSlop: 1e-5, velocityThreshold: 0, maxTranslation: 1e6, maxRotation: 1e6 },
+        options: { allowSleep: false, continuousPhysics: false },
+        iterations: [50, 10],
+    },
+};
+
+export function start({ preset, gravity, dt, friction, restitution, bodies, joints }) {
+    const { settings, options, iterations } = presets[preset];
+    Object.assign(Settings, settings);
+    const world = new World({ gravity: { x: gravity[0], y: gravity[1] }, ...options });
     const made = bodies.map((b) => {
         const body = world.createBody({
             type: b.isStatic ? 'static' : 'dynamic',
@@ -32,7 +47,7 @@ export function start({ gravity, dt, friction, restitution, bodies, joints }) {
         world.createJoint(new RevoluteJoint({}, first, made[b], vector(anchor)));
     }
     return {
-        step: () => world.step(dt, 8, 3),
+        step: () => world.step(dt, ...iterations),
         positions: () => made.map((body) => body.getPosition()).map(({ x, y }) => [x, y, 0]),
     };
 }

@@ -4,19 +4,30 @@ import RAPIER from '@dimforge/rapier3d-compat';
 
 await RAPIER.init();
 
-export const engine = 'rapier3d:preset=default';
 // Single precision. Friction is multiplied as the guest does: averaged, it differs by a rounding, which the inner edges of
 // the mesh of ball_in_cylinder make 3.2 mm.
 export const bound = 1e-6;
-export const scenes = ['hanging_chain_mode', 'ball_in_cylinder', 'backspin', 'bouncing_ball', 'box_stack'];
+export const scenes = {
+    default: ['hanging_chain_mode', 'ball_in_cylinder', 'backspin', 'bouncing_ball', 'box_stack', 'rod_strikes_ball'],
+    matched: ['ball_in_trough', 'tipping_slope', 'hanging_chain_mode', 'rod_strikes_ball', 'rod_strikes_ball_with_its_end'],
+};
 
 const vector = ([x, y, z]) => ({ x, y, z });
 
-function colliderOf({ box, sphere, triangle_mesh: mesh }) {
+function kindOf({ isStatic, isKinematic }) {
+    if (isKinematic) return RAPIER.RigidBodyDesc.kinematicVelocityBased();
+    return isStatic ? RAPIER.RigidBodyDesc.fixed() : RAPIER.RigidBodyDesc.dynamic();
+}
+
+function colliderOf({ box, sphere, capsule, triangle_mesh: mesh }, preset) {
     const { ColliderDesc } = RAPIER;
     if (box) return ColliderDesc.cuboid(...box.half_extents);
     if (sphere) return ColliderDesc.ball(sphere.radius);
-    if (mesh) return ColliderDesc.trimesh(new Float32Array(mesh.vertices.flat()), new Uint32Array(mesh.triangles.flat()));
+    if (capsule) return ColliderDesc.capsule(capsule.half_length, capsule.radius);
+    if (mesh) {
+        const flags = preset === 'matched' ? RAPIER.TriMeshFlags.FIX_INTERNAL_EDGES_TWO_SIDED : undefined;
+        return ColliderDesc.trimesh(new Float32Array(mesh.vertices.flat()), new Uint32Array(mesh.triangles.flat()), flags);
+    }
     return new ColliderDesc(new RAPIER.HalfSpace({ x: 0, y: 1, z: 0 }));
 }
 
@@ -26,24 +37,32 @@ function addHinge(world, { anchorA, anchorB, axis }, a, b) {
     world.createImpulseJoint(data, a, b, true);
 }
 
-export function start({ gravity, dt, friction, restitution, bodies, joints }) {
+export function start({ preset, gravity, dt, friction, restitution, bodies, joints }) {
     const world = new RAPIER.World(vector(gravity));
     world.timestep = dt;
+    if (preset === 'matched') {
+        world.integrationParameters.numInternalPgsIterations = 4;
+        world.integrationParameters.normalizedAllowedLinearError = 0;
+    }
     const made = bodies.map((b) => {
         const [w, x, y, z] = b.quaternion;
-        const kind = b.isStatic ? RAPIER.RigidBodyDesc.fixed() : RAPIER.RigidBodyDesc.dynamic();
-        const desc = kind
+        const desc = kindOf(b)
             .setTranslation(...b.position)
             .setRotation({ w, x, y, z })
             .setLinvel(...b.velocity)
-            .setAngvel(vector(b.spin));
+            .setAngvel(vector(b.spin))
+            .setCanSleep(preset !== 'matched');
         const body = world.createRigidBody(desc);
         if (!b.collides) {
             body.setAdditionalMassProperties(b.mass, vector([0, 0, 0]), vector(b.inertia), { w: 1, x: 0, y: 0, z: 0 }, true);
             return body;
         }
-        const collider = colliderOf(b.shape);
-        if (!b.isStatic) collider.setMass(b.mass);
+        // Without a mass of its own a kinematic body would turn about the middle of its shape.
+        if (b.isKinematic) body.setAdditionalMassProperties(1, vector([0, 0, 0]), vector([1, 1, 1]), { w: 1, x: 0, y: 0, z: 0 }, true);
+        const half = 0.5 * b.shapeAngle;
+        const turn = { w: Math.cos(half), x: 0, y: 0, z: Math.sin(half) };
+        const collider = colliderOf(b.shape, preset).setTranslation(...b.shapePosition).setRotation(turn);
+        if (!b.isStatic) collider.setMass(b.mass ?? 0);
         collider.setFriction(Math.sqrt(friction)).setFrictionCombineRule(RAPIER.CoefficientCombineRule.Multiply);
         world.createCollider(collider.setRestitution(restitution), body);
         return body;
