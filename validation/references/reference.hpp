@@ -59,6 +59,8 @@ struct Quantity {
     double scale = 0.0;
     /// The same number taken from a trajectory; empty when it does not show there (no second bounce).
     std::function<std::optional<double>(const Trajectory&)> measure;
+    /// It is a sum of impulses at contacts: a run of an engine that reports none does not show it, and has no error of it.
+    bool needsImpulses = false;
 };
 
 /// The scenario's values break an assumption of the reference ("slope steeper than the friction angle").

@@ -77,6 +77,7 @@ class StaticEquilibrium : public Reference {
             q.measure = [pair = pair](const Trajectory& run) {
                 return meanForce(run, pair.first, pair.second);
             };
+            q.needsImpulses = true;
             result.push_back(std::move(q));
         }
         return result;
