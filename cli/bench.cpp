@@ -219,6 +219,7 @@ void showProgress(const validation::BenchProgress& p, bool live) {
 results::Run readBaseline(const std::string& folder) {
     try {
         auto run = results::readRun(folder);
+        for (const std::string& damage : run.damage) say(damage);
         if (run.bench.empty()) throw std::invalid_argument("--baseline: '" + folder + "' holds no bench");
         return run;
     } catch (const std::runtime_error& error) {

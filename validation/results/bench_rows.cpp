@@ -50,13 +50,6 @@ void writeCase(SQLite::Database& database, const BenchCase& c) {
         .run();
 }
 
-std::vector<std::string> storedCases(SQLite::Database& database) {
-    std::vector<std::string> ids;
-    SQLite::Statement select(database, "SELECT id FROM bench_cases");
-    while (select.executeStep()) ids.push_back(select.getColumn(0).getString());
-    return ids;
-}
-
 void writeValues(SQLite::Database& database, const std::string& caseId, const BenchRepetition& r) {
     const auto names = tableColumns(database, "bench_values");
     SQLite::Statement insert(database, insertInto("bench_values", names.size()));
@@ -72,7 +65,14 @@ void writeValues(SQLite::Database& database, const std::string& caseId, const Be
     for (const BenchQuality& q : r.quality) add(kQuality, q.name, q.unit, q.value, q.min, q.max, q.ok);
 }
 
-void readRepetitions(SQLite::Database& database, const Cases& cases) {
+/// The case of a row; nullptr if that is left out.
+BenchCase* caseOfRow(const Cases& cases, const std::string& id, const Damage& damage) {
+    if (const auto it = cases.find(id); it != cases.end()) return it->second;
+    if (damage.benchCases.empty()) throw std::runtime_error("bench: found a row of a case that is not there");
+    return nullptr;
+}
+
+void readRepetitions(SQLite::Database& database, const Cases& cases, const Damage& damage) {
     SQLite::Statement rows(
         database, std::string("SELECT case_id, round, run_order, outcome, reason, wall, cpu, samples, "
                               "state_hash, peak_memory_kib, "
@@ -83,7 +83,9 @@ void readRepetitions(SQLite::Database& database, const Cases& cases) {
         std::string id;
         Taker taker(rows);
         taker >> id;
-        BenchRepetition& r = cases.at(id)->repetitions.emplace_back();
+        BenchCase* c = caseOfRow(cases, id, damage);
+        if (c == nullptr) continue;
+        BenchRepetition& r = c->repetitions.emplace_back();
         taker >> r.round >> r.order >> r.outcome >> r.reason >> r.wall >> r.cpu >> r.samples >> r.stateHash >>
             r.peakMemoryKiB >> r.ownMemoryKiB >> r.allocations >> r.allocatedBytes >> r.processSeconds >>
             r.load;
@@ -96,7 +98,7 @@ BenchRepetition& repetitionOf(BenchCase& c, std::int64_t round) {
     throw std::runtime_error("bench: values of a repetition that is not there");
 }
 
-void readValues(SQLite::Database& database, const Cases& cases) {
+void readValues(SQLite::Database& database, const Cases& cases, const Damage& damage) {
     SQLite::Statement rows(database, "SELECT case_id, round, kind, name, unit, value, min, max, ok" +
                                          nonFiniteOf(database, "bench_values") +
                                          " FROM bench_values ORDER BY case_id, round, ordinal");
@@ -105,7 +107,9 @@ void readValues(SQLite::Database& database, const Cases& cases) {
         std::int64_t round = 0;
         BenchQuality q;
         Taker(rows) >> id >> round >> kind >> q.name >> q.unit >> q.value >> q.min >> q.max >> q.ok;
-        BenchRepetition& r = repetitionOf(*cases.at(id), round);
+        BenchCase* c = caseOfRow(cases, id, damage);
+        if (c == nullptr) continue;
+        BenchRepetition& r = repetitionOf(*c, round);
         if (kind == kCount)
             r.counts.push_back({q.name, q.value});
         else if (kind == kPhase)
@@ -117,7 +121,7 @@ void readValues(SQLite::Database& database, const Cases& cases) {
     }
 }
 
-void readSummaries(SQLite::Database& database, const Cases& cases) {
+void readSummaries(SQLite::Database& database, const Cases& cases, const Damage& damage) {
     SQLite::Statement rows(
         database,
         std::string("SELECT case_id, repetitions, clock, wall, cpu, low, high, converged, valid, reason, "
@@ -127,9 +131,24 @@ void readSummaries(SQLite::Database& database, const Cases& cases) {
         std::string id;
         Taker taker(rows);
         taker >> id;
-        BenchSummary& s = cases.at(id)->summary;
+        BenchCase* c = caseOfRow(cases, id, damage);
+        if (c == nullptr) continue;
+        BenchSummary& s = c->summary;
         taker >> s.repetitions >> s.clock >> s.wall >> s.cpu >> s.low >> s.high >> s.converged >> s.valid >>
             s.reason >> s.base >> s.ratio >> s.ratioLow >> s.ratioHigh;
+    }
+}
+
+void readChanges(SQLite::Database& database, Bench& bench, const Cases& cases) {
+    SQLite::Statement changes(database,
+                              "SELECT case_id, before, after, ratio, low, high, p, verdict, reason" +
+                                  nonFiniteOf(database, "bench_changes") +
+                                  " FROM bench_changes JOIN bench_cases ON id = case_id ORDER BY position");
+    while (changes.executeStep()) {
+        if (!cases.contains(changes.getColumn(0).getString())) continue;
+        BenchChange& c = bench.changes.emplace_back();
+        Taker(changes) >> c.caseId >> c.before >> c.after >> c.ratio >> c.low >> c.high >> c.p >> c.verdict >>
+            c.reason;
     }
 }
 
@@ -142,7 +161,7 @@ void writeBenchPlan(SQLite::Database& database, const Bench& bench) {
     std::set<std::string> planned;
     for (const BenchCase& c : bench.cases) planned.insert(c.id);
     SQLite::Statement forget(database, "DELETE FROM bench_cases WHERE id = ?");
-    for (const std::string& id : storedCases(database))
+    for (const std::string& id : idsOfCases(database, kBenchCases))
         if (!planned.contains(id)) (Binder(forget) << id).run();
     for (const BenchCase& c : bench.cases) writeCase(database, c);
 }
@@ -179,7 +198,7 @@ void writeBenchAnalysis(SQLite::Database& database, const Bench& bench) {
             .run();
 }
 
-Bench readBench(SQLite::Database& database) {
+Bench readBench(SQLite::Database& database, const Damage& damage) {
     Bench bench;
     SQLite::Statement settings(database, "SELECT key, value FROM bench_settings");
     while (settings.executeStep())
@@ -188,24 +207,18 @@ Bench readBench(SQLite::Database& database) {
                            "SELECT id, position, part, name, engine, size_unit, size, threads, operation, "
                            "command, parameters FROM bench_cases ORDER BY position, id");
     while (rows.executeStep()) {
+        if (damage.benchCases.contains(rows.getColumn(0).getString())) continue;
         BenchCase& c = bench.cases.emplace_back();
         Taker(rows) >> c.id >> c.position >> c.part >> c.name >> c.engine >> c.sizeUnit >> c.size >>
             c.threads >> c.operation >> c.command >> c.parameters;
     }
     Cases cases;
     for (BenchCase& c : bench.cases) cases[c.id] = &c;
-    readRepetitions(database, cases);
-    readValues(database, cases);
-    readSummaries(database, cases);
-    SQLite::Statement changes(database,
-                              "SELECT case_id, before, after, ratio, low, high, p, verdict, reason" +
-                                  nonFiniteOf(database, "bench_changes") +
-                                  " FROM bench_changes JOIN bench_cases ON id = case_id ORDER BY position");
-    while (changes.executeStep()) {
-        BenchChange& c = bench.changes.emplace_back();
-        Taker(changes) >> c.caseId >> c.before >> c.after >> c.ratio >> c.low >> c.high >> c.p >> c.verdict >>
-            c.reason;
-    }
+    readRepetitions(database, cases, damage);
+    readValues(database, cases, damage);
+    if (damage.hits({kBenchSummaries, kBenchChanges})) return bench;
+    readSummaries(database, cases, damage);
+    readChanges(database, bench, cases);
     return bench;
 }
 

@@ -7,6 +7,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "validation/results/bench_types.hpp"
+#include "validation/results/seals.hpp"
 
 namespace rigor::results {
 
@@ -21,6 +22,7 @@ void writeBenchRepetition(SQLite::Database& database, const std::string& caseId,
 /// Replaces what is computed from the repetitions: summaries and changes.
 void writeBenchAnalysis(SQLite::Database& database, const Bench& bench);
 
-Bench readBench(SQLite::Database& database);
+/// Without the damaged cases; without summaries and changes if one of these tables is damaged.
+Bench readBench(SQLite::Database& database, const Damage& damage);
 
 }  // namespace rigor::results

@@ -32,9 +32,11 @@ inline std::vector<std::string> tableColumns(SQLite::Database& database, const s
     return names;
 }
 
-inline std::vector<std::string> idsOfCases(SQLite::Database& database) {
+inline constexpr const char* kBenchCases = "bench_cases";
+
+inline std::vector<std::string> idsOfCases(SQLite::Database& database, const std::string& table = "cases") {
     std::vector<std::string> ids;
-    SQLite::Statement select(database, "SELECT id FROM cases");
+    SQLite::Statement select(database, "SELECT id FROM " + table);
     while (select.executeStep()) ids.push_back(select.getColumn(0).getString());
     return ids;
 }

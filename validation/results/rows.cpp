@@ -216,15 +216,15 @@ Run readHeaderRows(SQLite::Database& database) {
     return run;
 }
 
-Run readRows(SQLite::Database& database, const std::set<std::string>& skipped, bool withAnalysis) {
+Run readRows(SQLite::Database& database, const Damage& damage) {
     Run run;
     readHeader(database, run);
-    run.cases = readCases(database, skipped);
+    run.cases = readCases(database, damage.cases);
     CaseIndex index;
     for (CaseRow& c : run.cases) index[c.id] = &c;
     readLists(database, index);
-    if (withAnalysis && schemaVersionOf(database) >= 2) readAnalysis(database, run);
-    if (schemaVersionOf(database) >= 5) run.bench = readBench(database);
+    if (!damage.hits({"orders", "fairness"}) && schemaVersionOf(database) >= 2) readAnalysis(database, run);
+    if (schemaVersionOf(database) >= 5) run.bench = readBench(database, damage);
     return run;
 }
 

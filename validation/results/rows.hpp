@@ -22,7 +22,7 @@ void writeAnalysisRows(SQLite::Database& database, const Run& run);
 
 /// The rows that belong to the run as a whole, without its cases.
 Run readHeaderRows(SQLite::Database& database);
-/// The whole store, cases in the order of the plan, without those whose id is in `skipped`.
-Run readRows(SQLite::Database& database, const std::set<std::string>& skipped = {}, bool withAnalysis = true);
+/// The whole store, cases in the order of the plan, without what is damaged.
+Run readRows(SQLite::Database& database, const Damage& damage = {});
 
 }  // namespace rigor::results

@@ -191,6 +191,10 @@ void upgrade(SQLite::Database& database) {
         sealHeader(database);
         sealAnalysis(database);
     }
+    if (version < kFirstSchemaWithBenchSeals) {
+        sealBenchPlan(database);
+        sealBenchAnalysis(database);
+    }
     sealCases(database, damage.cases);  // Damaged ones keep their checksums, which they do not fit.
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
@@ -224,6 +228,8 @@ SQLite::Database createDatabase(const std::filesystem::path& file) {
     database.exec(kSealsTable);
     sealHeader(database);
     sealAnalysis(database);
+    sealBenchPlan(database);
+    sealBenchAnalysis(database);
     database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();

@@ -108,6 +108,40 @@ EnvironmentError storeError(const fs::path& file, const SQLite::Exception& error
     return EnvironmentError(file, std::string("cannot be written: ") + error.what(), code);
 }
 
+/// A table that was computed from the cases can be computed again.
+bool mayBeLeftOut(const std::string& table) {
+    return table == "orders" || table == "fairness" || table == kBenchSummaries || table == kBenchChanges;
+}
+
+std::vector<std::string> damageText(const fs::path& file, const Damage& damage) {
+    std::vector<std::string> text;
+    for (const std::string& id : damage.cases)
+        text.push_back(file.string() + ": the rows of case " + id +
+                       " do not fit their checksum; it is left out");
+    for (const std::string& id : damage.benchCases)
+        text.push_back(file.string() + ": the rows of the bench's case " + id +
+                       " do not fit their checksum; it is left out");
+    if (damage.hits({"orders", "fairness"}))
+        text.push_back(file.string() + ": orders and fairness do not fit their checksums; they are left out");
+    if (damage.hits({kBenchSummaries, kBenchChanges}))
+        text.push_back(file.string() +
+                       ": the bench's summaries and changes do not fit their checksums; they are left out");
+    return text;
+}
+
+/// New checksums would make good what is damaged.
+void removeDamagedBench(SQLite::Database& database) {
+    const Damage damage = findDamage(database);
+    if (damage.hits({kBenchSummaries, kBenchChanges}))
+        for (const char* table : {kBenchSummaries, kBenchChanges})
+            database.exec(std::string("DELETE FROM ") + table);
+    for (const char* where :
+         {"bench_values WHERE case_id", "bench_repetitions WHERE case_id", "bench_cases WHERE id"}) {
+        SQLite::Statement forget(database, std::string("DELETE FROM ") + where + " = ?");
+        for (const std::string& id : damage.benchCases) (Binder(forget) << id).run();
+    }
+}
+
 }  // namespace
 
 struct RunWriter::Impl {
@@ -184,15 +218,27 @@ void RunWriter::writeAnalysis(const Run& run) {
 }
 
 void RunWriter::writeBenchPlan(const Bench& bench) {
-    impl_->write([&] { results::writeBenchPlan(impl_->database, bench); });
+    impl_->write([&] {
+        removeDamagedBench(impl_->database);
+        results::writeBenchPlan(impl_->database, bench);
+        removeSealsOfMissingCases(impl_->database);
+        sealBenchPlan(impl_->database);
+        sealBenchAnalysis(impl_->database);  // The rows of cases that are gone went with them.
+    });
 }
 
 void RunWriter::writeBenchRepetition(const std::string& caseId, const BenchRepetition& repetition) {
-    impl_->write([&] { results::writeBenchRepetition(impl_->database, caseId, repetition); });
+    impl_->write([&] {
+        results::writeBenchRepetition(impl_->database, caseId, repetition);
+        sealBenchCase(impl_->database, caseId);
+    });
 }
 
 void RunWriter::writeBenchAnalysis(const Bench& bench) {
-    impl_->write([&] { results::writeBenchAnalysis(impl_->database, bench); });
+    impl_->write([&] {
+        results::writeBenchAnalysis(impl_->database, bench);
+        sealBenchAnalysis(impl_->database);
+    });
 }
 
 void RunWriter::finish(const std::string& isoTime) {
@@ -218,19 +264,11 @@ Run readRun(const fs::path& directory) {
         SQLite::Transaction transaction(database);  // one consistent view while another process writes
         const Damage damage =
             schemaVersionOf(database) >= kFirstSchemaWithSeals ? findDamage(database) : Damage{};
-        bool hasAnalysis = true;
-        for (const std::string& table : damage.tables) {
-            if (table != "orders" && table != "fairness")
+        for (const std::string& table : damage.tables)
+            if (!mayBeLeftOut(table))
                 throw EnvironmentError("the table " + table + " is damaged: it does not fit its checksum");
-            hasAnalysis = false;
-        }
-        Run run = readRows(database, damage.cases, hasAnalysis);
-        for (const std::string& id : damage.cases)
-            run.damage.push_back(file.string() + ": the rows of case " + id +
-                                 " do not fit their checksum; it is left out");
-        if (!hasAnalysis)
-            run.damage.push_back(file.string() +
-                                 ": orders and fairness do not fit their checksums; they are left out");
+        Run run = readRows(database, damage);
+        run.damage = damageText(file, damage);
         run.directory = directory.string();
         run.schemaVersion = schemaVersionOf(database);
         return run;

@@ -11,7 +11,7 @@
 
 namespace rigor::results {
 
-inline constexpr int kSchemaVersion = 13;
+inline constexpr int kSchemaVersion = 14;
 
 /// True if the folder has a store. A run that stopped before it had tables leaves an empty file, which is none.
 bool holdsStore(const std::filesystem::path& directory);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -156,6 +157,96 @@ TEST(BenchStore, RepetitionsStayWithTheirCases) {
     EXPECT_EQ(read.cases[0].repetitions[0].wall, 5.0);
     EXPECT_TRUE(read.cases[0].repetitions[0].counts.empty());
     EXPECT_EQ(read.cases[0].repetitions[0].quality.size(), 3u);
+}
+
+/// A store with two repetitions of each of its cases, changed from outside.
+class DamagedBench {
+  public:
+    explicit DamagedBench(const std::string& change) {
+        RunWriter writer(folder_.path(), false);
+        writer.writeHeader(sample::header());
+        writer.writeBenchPlan(bench());
+        for (const char* id : {"a", "b"})
+            for (const std::int64_t round : {0, 1}) writer.writeBenchRepetition(id, repetition(round));
+        writer.writeBenchAnalysis(bench());
+        sql(change);
+    }
+    void sql(const std::string& change) {
+        SQLite::Database database((folder_.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+        database.exec(change);
+    }
+    Run read() const { return readRun(folder_.path()); }
+    RunWriter resumed() const { return {folder_.path(), true}; }
+
+  private:
+    TemporaryFolder folder_;
+};
+
+TEST(BenchStore, ADamagedCaseIsLeftOutAndNamed) {
+    for (const char* change :
+         {"UPDATE bench_repetitions SET wall = wall / 2 WHERE case_id = 'a' AND round = 1",
+          "UPDATE bench_values SET value = 1 WHERE case_id = 'a' AND round = 0 AND ordinal = 2",
+          "DELETE FROM bench_values WHERE case_id = 'a' AND round = 0 AND ordinal = 2",
+          "DELETE FROM bench_repetitions WHERE case_id = 'a' AND round = 1",
+          "UPDATE bench_cases SET engine = 'bullet' WHERE id = 'a'", "DELETE FROM bench_cases WHERE id = 'a'",
+          "DELETE FROM seals WHERE name = 'bench case a'"}) {
+        const results::Run run = DamagedBench(change).read();
+        ASSERT_EQ(run.damage.size(), 1u) << change;
+        EXPECT_THAT(run.damage[0], testing::HasSubstr("results.sqlite: the rows of the bench's case a"))
+            << change;
+        ASSERT_EQ(run.bench.cases.size(), 1u) << change;
+        EXPECT_EQ(run.bench.cases[0].id, "b");
+        ASSERT_EQ(run.bench.cases[0].repetitions.size(), 2u);
+        expectSame(repetition(1), run.bench.cases[0].repetitions[1]);
+        EXPECT_EQ(run.bench.cases[0].summary.ratio, 1.25);
+        ASSERT_EQ(run.bench.changes.size(), 1u);
+        EXPECT_EQ(run.bench.changes[0].caseId, "b");
+    }
+}
+
+TEST(BenchStore, DamagedSummariesAreLeftOutAndDamagedSettingsAreRefused) {
+    for (const char* change : {"UPDATE bench_summaries SET ratio = 2", "UPDATE bench_changes SET p = 0.5"}) {
+        const results::Run run = DamagedBench(change).read();
+        ASSERT_EQ(run.damage.size(), 1u) << change;
+        EXPECT_THAT(run.damage[0], testing::HasSubstr("the bench's summaries and changes")) << change;
+        EXPECT_EQ(run.bench.cases.size(), 2u);
+        EXPECT_EQ(run.bench.cases[0].summary.repetitions, 0);
+        EXPECT_TRUE(run.bench.changes.empty());
+    }
+    const DamagedBench damaged("UPDATE bench_settings SET value = '2' WHERE key = 'seed'");
+    EXPECT_THROW((void)damaged.read(), std::runtime_error);
+}
+
+TEST(BenchStore, ADamagedCaseIsRepeatedAndTheOthersStay) {
+    for (const char* change :
+         {"UPDATE bench_repetitions SET wall = wall / 2 WHERE case_id = 'a' AND round = 1",
+          "DELETE FROM bench_cases WHERE id = 'a'"}) {
+        DamagedBench damaged(change);
+        damaged.sql("UPDATE bench_summaries SET ratio = 2 WHERE case_id = 'b'");
+        {
+            RunWriter writer = damaged.resumed();
+            writer.writeBenchPlan(bench());
+            EXPECT_TRUE(damaged.read().damage.empty()) << change;
+            EXPECT_TRUE(damaged.read().bench.cases[0].repetitions.empty()) << change;
+            EXPECT_EQ(damaged.read().bench.cases[1].summary.ratio, std::nullopt)
+                << "no good one of the damaged";
+            writer.writeBenchRepetition("a", repetition(0));
+        }
+        const results::Run run = damaged.read();
+        EXPECT_TRUE(run.damage.empty()) << change;
+        EXPECT_EQ(run.bench.cases[0].repetitions.size(), 1u) << change;
+        EXPECT_EQ(run.bench.cases[1].repetitions.size(), 2u) << change;
+    }
+}
+
+TEST(BenchStore, AStoreWithoutChecksumsGetsThemWhenItIsGoneOnWith) {
+    DamagedBench old("DELETE FROM seals WHERE name LIKE 'bench%'; PRAGMA user_version = 13");
+    EXPECT_TRUE(old.read().damage.empty());
+    EXPECT_EQ(old.read().bench.cases.size(), 2u);
+    (void)old.resumed();
+    EXPECT_TRUE(old.read().damage.empty());
+    old.sql("UPDATE bench_values SET unit = 'mm' WHERE case_id = 'b' AND name = 'top_height'");
+    EXPECT_EQ(old.read().damage.size(), 1u);
 }
 
 TEST(BenchStore, ARunOfTheSchemaBeforeHasNone) {

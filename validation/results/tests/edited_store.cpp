@@ -25,6 +25,7 @@ void takeBackSharedLists(SQLite::Database& database) {
         database.exec("DROP TABLE shared_" + name);
         database.exec("ALTER TABLE cases DROP COLUMN " + name + "_list");
     }
+    database.exec("DELETE FROM seals WHERE name LIKE 'bench%'");
 }
 
 void removeChecksums(const std::filesystem::path& store) {
