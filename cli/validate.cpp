@@ -104,14 +104,13 @@ Selection select(const ValidateArguments& arguments) {
 }
 
 /// Every installed engine that can step a world.
-std::vector<adapter::EngineSpec> allDynamicEngines() {
+std::vector<adapter::EngineSpec> allDynamicEngines(int jobs) {
     std::vector<adapter::EngineSpec> specs;
-    for (const auto& name : adapter::availableEngines()) {
-        const auto description = validation::describeEngine(name, ownBinary());
-        if (!description.problem.empty())
-            say("engine " + name + " left out: " + description.problem);
-        else if (description.capabilities.dynamics)
-            specs.push_back({name, {}});
+    for (const auto& d : validation::describeEngines(adapter::availableEngines(), ownBinary(), jobs)) {
+        if (!d.problem.empty())
+            say("engine " + d.info.name + " left out: " + d.problem);
+        else if (d.capabilities.dynamics)
+            specs.push_back({d.info.name, {}});
     }
     return specs;
 }
@@ -124,7 +123,7 @@ std::vector<adapter::EngineSpec> chooseEngines(const ValidateArguments& argument
     else if (!selection.engines.empty())
         for (const auto& text : selection.engines) specs.push_back(adapter::parseSpec(text));
     else
-        specs = allDynamicEngines();
+        specs = allDynamicEngines(std::max(1, arguments.jobs));
     for (const auto& spec : specs)
         (void)adapter::moduleFor(spec);  // an engine that is not installed is said now
     return specs;

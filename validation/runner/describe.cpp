@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include "adapters/interface/capability_fields.hpp"
 #include "validation/runner/answer.hpp"
@@ -72,6 +75,72 @@ class DescribedEngine final : public adapter::EngineWithPresets {
     const EngineDescription& d_;
 };
 
+/// Descriptions that this process has had made: a run needs the same ones several times. A module that has been replaced
+/// since is described anew, and so is one that could not be described.
+class KnownDescriptions {
+  public:
+    /// The program that describes, the engine as it is named, its module, and the time at which that was written.
+    using Key = std::tuple<std::string, std::string, std::filesystem::path, std::filesystem::file_time_type>;
+
+    std::optional<EngineDescription> find(const std::optional<Key>& key) {
+        const std::lock_guard lock(mutex_);
+        const auto it = key ? known_.find(*key) : known_.end();
+        return it == known_.end() ? std::nullopt : std::optional(it->second);
+    }
+    void keep(const std::optional<Key>& key, const EngineDescription& description) {
+        const std::lock_guard lock(mutex_);
+        if (key && description.problem.empty()) known_.insert_or_assign(*key, description);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::map<Key, EngineDescription> known_;
+};
+
+KnownDescriptions& knownDescriptions() {
+    static KnownDescriptions known;
+    return known;
+}
+
+/// Empty for an engine that is not installed.
+std::optional<KnownDescriptions::Key> keyOf(const std::string& engine, const std::filesystem::path& binary) {
+    try {
+        const auto module = adapter::moduleFor(adapter::parseSpec(engine));
+        std::error_code error;
+        const auto written = std::filesystem::last_write_time(module, error);
+        if (!error) return KnownDescriptions::Key{binary.string(), engine, module, written};
+    } catch (const adapter::BadInput&) {  // the child says what is wrong
+    }
+    return std::nullopt;
+}
+
+void addPrecisions(const std::string& engine, EngineDescription& d) {
+    const std::string& own = d.info.precision;
+    if (!own.empty()) d.precisions.push_back(own);
+    for (const auto& variant : adapter::availablePrecisions(adapter::parseSpec(engine).engine))
+        if (variant != own) d.precisions.push_back(variant);
+    for (const auto& option : d.options)
+        if (option.key == "precision") d.precisions = option.values;
+}
+
+/// The child that describes an engine.
+ProcessTask describeTask(const std::string& engine, const std::filesystem::path& binary,
+                         const std::filesystem::path& answer, EngineDescription& d) {
+    return {{binary.string(), "__describe", engine, answer.string()},
+            kDescribeLimits,
+            engine,
+            [&d, answer](const ProcessResult& result) {
+                const auto reply = readJsonFile(answer);
+                if (result.exitedWith(0) && reply) {
+                    readDescription(*reply, d);
+                    return;
+                }
+                d.problem = result.timedOut ? "no result within the time limit" : result.ending();
+                if (const std::string line = lastLine(result.outputTail); !line.empty())
+                    d.problem += ": " + line;
+            }};
+}
+
 }  // namespace
 
 int describeChild(const std::string& engine, const std::filesystem::path& answer) {
@@ -119,34 +188,23 @@ std::vector<EngineDescription> describeEngines(const std::vector<std::string>& e
     const ScratchFolder scratch;
     ProcessPool pool(jobs);
     std::vector<EngineDescription> descriptions(engines.size());
+    std::map<std::size_t, std::optional<KnownDescriptions::Key>> requested;
     for (std::size_t i = 0; i < engines.size(); ++i) {
-        EngineDescription& d = descriptions[i];
-        d.info.name = adapter::parseSpec(engines[i]).engine;
+        const auto key = keyOf(engines[i], binary);
+        if (auto known = knownDescriptions().find(key)) {
+            descriptions[i] = *std::move(known);
+            continue;
+        }
+        requested[i] = key;
+        descriptions[i].info.name = adapter::parseSpec(engines[i]).engine;
         const auto answer = scratch.path() / (std::to_string(i) + ".json");
-        pool.add({{binary.string(), "__describe", engines[i], answer.string()},
-                  kDescribeLimits,
-                  engines[i],
-                  [&d, answer](const ProcessResult& result) {
-                      const auto reply = readJsonFile(answer);
-                      if (result.exitedWith(0) && reply) {
-                          readDescription(*reply, d);
-                          return;
-                      }
-                      d.problem = result.timedOut ? "no result within the time limit" : result.ending();
-                      if (const std::string line = lastLine(result.outputTail); !line.empty())
-                          d.problem += ": " + line;
-                  }});
+        pool.add(describeTask(engines[i], binary, answer, descriptions[i]));
     }
     const std::atomic<bool> never{false};
     pool.run(never, [](const std::string&) {});
-    for (std::size_t i = 0; i < engines.size(); ++i) {
-        const std::string& own = descriptions[i].info.precision;
-        auto& precisions = descriptions[i].precisions;
-        if (!own.empty()) precisions.push_back(own);
-        for (const auto& variant : adapter::availablePrecisions(adapter::parseSpec(engines[i]).engine))
-            if (variant != own) precisions.push_back(variant);
-        for (const auto& option : descriptions[i].options)
-            if (option.key == "precision") precisions = option.values;
+    for (const auto& [i, key] : requested) {
+        addPrecisions(engines[i], descriptions[i]);
+        knownDescriptions().keep(key, descriptions[i]);
     }
     return descriptions;
 }

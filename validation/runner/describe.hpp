@@ -20,7 +20,8 @@ int describeChild(const std::string& engine, const std::filesystem::path& answer
 /// engine that could not be loaded.
 std::string capabilitiesText(const EngineDescription& description);
 
-/// Describes several engines, `jobs` at a time.
+/// Describes several engines, `jobs` at a time. This process describes a module once, unless its file has changed
+/// since.
 std::vector<EngineDescription> describeEngines(const std::vector<std::string>& engines,
                                                const std::filesystem::path& binary, int jobs);
 

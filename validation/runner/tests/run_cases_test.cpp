@@ -9,6 +9,7 @@
 
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "validation/comparison/recorded.hpp"
@@ -23,6 +24,8 @@
 namespace rigor::validation {
 namespace {
 
+namespace fs = std::filesystem;
+using fixtures::buildFolder;
 using fixtures::expectSameMotion;
 using fixtures::plan;
 using fixtures::thrownBall;
@@ -351,6 +354,43 @@ TEST_F(RunCases, DescribesEnginesAndWhatIsWrongWithThem) {
     EXPECT_EQ(good.options[2].key, "asleep");
     EXPECT_THAT(good.precisions, testing::ElementsAre("f64"));
     EXPECT_THAT(describeEngine("no_such_engine", options().binary).problem, HasSubstr("not installed"));
+}
+
+TEST_F(RunCases, DescribesAModuleOnceUntilItsFileChanges) {
+    const fs::path folder = scratch_.path(), log = folder / "starts", program = folder / "program";
+    std::ofstream(program) << "#!/bin/sh\necho \"$1 $2\" >>'" << log.string() << "'\nexec '"
+                           << options().binary.string() << "' \"$@\"\n";
+    fs::permissions(program, fs::perms::owner_all);
+    const auto starts = [&] {
+        std::ifstream in(log);
+        std::vector<std::string> lines;
+        for (std::string line; std::getline(in, line);) lines.push_back(line);
+        return lines;
+    };
+    const fs::path module = folder / "rigor_adapter_double_copied.so";
+    fs::copy_file(buildFolder() / "tests/doubles/rigor_adapter_double_free_flight.so", module);
+    setenv("RIGOR_ADAPTER_PATH", folder.c_str(), 1);
+
+    const auto first = describeEngine("double_copied", program);
+    EXPECT_EQ(first.problem, "");
+    const auto again = describeEngines({"double_copied", "double_copied:pause_us=1"}, program, 1);
+    EXPECT_THAT(starts(),
+                testing::ElementsAre("__describe double_copied", "__describe double_copied:pause_us=1"));
+    EXPECT_EQ(capabilitiesText(again[0]), capabilitiesText(first));
+    EXPECT_EQ(again[0].precisions, first.precisions);
+
+    fs::remove(module);
+    fs::copy_file(buildFolder() / "tests/doubles/rigor_adapter_double_rigid.so", module);
+    const auto replaced = describeEngine("double_copied", program);
+    EXPECT_NE(capabilitiesText(replaced), capabilitiesText(first));
+    EXPECT_THAT(starts(), testing::SizeIs(3));
+
+    // A module that could not be described may have been mended since.
+    for (const std::size_t expected : {4u, 5u}) {
+        std::ofstream(folder / "rigor_adapter_double_broken.so") << "no module";
+        EXPECT_NE(describeEngine("double_broken", program).problem, "");
+        EXPECT_THAT(starts(), testing::SizeIs(expected));
+    }
 }
 
 }  // namespace
