@@ -49,6 +49,7 @@ std::unique_ptr<Drawn> runTo(const DrawArguments& a) {
     const scenario::Scenario& scenario = drawn->scenario;
     Scene& scene = drawn->scene;
     scene.scenario = &scenario;
+    limitTime(1.5 * scenario.timeLimit);
     const double dt = a.timeStep.empty() ? scenario.timeSteps.front() : parseTimeStep(a.timeStep);
     if (!(a.at >= 0.0) || a.at > scenario.duration + 0.5 * dt)
         throw std::invalid_argument("--at: found " + std::to_string(a.at) + ", expected 0 .. " +

@@ -2,19 +2,23 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "cli/guarded.hpp"
 
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "adapters/interface/engine_failure.hpp"
 #include "adapters/interface/types.hpp"
@@ -43,6 +47,59 @@ void limitChild(pid_t parent) {
     if (!validation::isSanitized()) setrlimit(RLIMIT_AS, &memory);
 }
 
+int saysOverTime(const std::string& scenario) {
+    std::fprintf(stderr, "rigor: %s: no end within its time limit; --set time_limit=SECONDS gives it more\n",
+                 scenario.c_str());
+    return kCrashed;
+}
+
+/// A pipe that is full waits for its reader, and so does who writes to it.
+bool isRead(int file) {
+    pollfd output{file, POLLOUT, 0};
+    return poll(&output, 1, 0) != 0;
+}
+
+/// The limit that a child has set itself by limitTime.
+std::optional<validation::TimeLimit> limitOf(pid_t child) {
+    struct rlimit own {
+    }, limit{};
+    getrlimit(RLIMIT_CPU, &own);
+    if (prlimit(child, RLIMIT_CPU, nullptr, &limit) != 0 || limit.rlim_cur == own.rlim_cur)
+        return std::nullopt;
+    return validation::TimeLimit(static_cast<double>(limit.rlim_cur));
+}
+
+/// Waits for the end of a child, and gives its status. Empty if its time was over, and it was killed. No time counts in
+/// which its output was not read, or in which this process was stopped.
+std::optional<int> endOf(pid_t child) {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::milliseconds kLook{250};
+    constexpr double kMostBetween = 1.0;  ///< [s]; this process was stopped, or had no turn, if it is more
+    const auto handle = static_cast<int>(
+        syscall(SYS_pidfd_open, child, 0));  // Without one the end is noticed a moment later.
+    std::optional<validation::TimeLimit> limit;
+    double elapsed = 0.0;
+    bool isOver = false;
+    for (auto last = Clock::now();;) {
+        pollfd end{handle, POLLIN, 0};
+        poll(&end, 1, static_cast<int>(kLook.count()));
+        int status = 0;
+        if (waitpid(child, &status, WNOHANG) == child) {
+            if (handle >= 0) close(handle);
+            return isOver ? std::nullopt : std::optional(status);
+        }
+        const auto now = Clock::now();
+        const double gap = std::chrono::duration<double>(now - std::exchange(last, now)).count();
+        if (!isRead(STDOUT_FILENO) || !isRead(STDERR_FILENO)) continue;
+        elapsed += limit ? std::min(gap, kMostBetween) : 0.0;
+        if (!limit) limit = limitOf(child);
+        if (limit && !isOver && limit->isOver(elapsed, validation::processorTimeOf(child))) {
+            isOver = true;
+            kill(child, SIGKILL);
+        }
+    }
+}
+
 /// Ends of a child about which its signal says enough; empty for a crash.
 std::optional<int> knownEnding(int signal, const std::string& scenario,
                                const validation::ReferenceLimits& limits) {
@@ -53,12 +110,7 @@ std::optional<int> knownEnding(int signal, const std::string& scenario,
         std::fprintf(stderr, "rigor: %s: %s\n", scenario.c_str(), why.text().c_str());
         return kNoReference;
     }
-    if (signal == SIGXCPU) {
-        std::fprintf(stderr,
-                     "rigor: %s: no end within its time limit; --set time_limit=SECONDS gives it more\n",
-                     scenario.c_str());
-        return kCrashed;
-    }
+    if (signal == SIGXCPU) return saysOverTime(scenario);
     if (signal == SIGKILL || signal == SIGTERM || signal == SIGHUP) {
         std::fprintf(stderr, "rigor: %s: killed from outside: %s\n", scenario.c_str(), strsignal(signal));
         return kEnvironment;
@@ -68,7 +120,7 @@ std::optional<int> knownEnding(int signal, const std::string& scenario,
 
 }  // namespace
 
-void limitProcessorTime(double seconds) {
+void limitTime(double seconds) {
     const auto whole = static_cast<rlim_t>(std::ceil(seconds * validation::timeLimitFactor()));
     const struct rlimit limit { whole, whole + 1 };
     setrlimit(RLIMIT_CPU, &limit);
@@ -113,12 +165,12 @@ int runGuarded(const std::string& engine, const std::string& scenario,
         _exit(reported ? code : kInternal);
     }
     close(finished[1]);
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
+    const std::optional<int> end = endOf(child);
     char byte = 0;
-    const bool reachedEnd = read(finished[0], &byte, 1) == 1;
+    const bool reachedEnd = end && read(finished[0], &byte, 1) == 1;
     close(finished[0]);
+    if (!end) return saysOverTime(scenario);
+    const int status = *end;
     if (WIFEXITED(status) && reachedEnd) return WEXITSTATUS(status);
     if (WIFEXITED(status)) {
         std::fprintf(stderr, "rigor: %s crashed in %s: it ended the process with exit code %d\n",

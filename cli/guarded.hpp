@@ -12,11 +12,12 @@
 
 namespace rigor::cli {
 
-/// Ends this process, a child of runGuarded, once it has used so much processor time [s; times timeLimitFactor()].
-void limitProcessorTime(double seconds);
+/// Limits the time of this process, a child of runGuarded (validation::TimeLimit) [s; times timeLimitFactor()].
+void limitTime(double seconds);
 
-/// Runs `work` in a child, which dies with this process and has the memory limit of a case, and returns its exit code, or one that says how it ended. `engine` and `scenario` are
-/// named in the sentence; `limits` are those of the alarm that `work` sets for a reference, if it does.
+/// Runs `work` in a child, which dies with this process and has the memory limit of a case, and returns its exit code,
+/// or one that says how it ended. `engine` and `scenario` are named in the sentence; `limits` are those of the alarm that
+/// `work` sets for a reference, if it does.
 int runGuarded(const std::string& engine, const std::string& scenario,
                const validation::ReferenceLimits& limits, const std::function<int()>& work);
 

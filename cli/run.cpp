@@ -184,8 +184,7 @@ int runHere(const RunArguments& a) {
     validation::ReferenceCheck reference;
     const auto loaded = loadWithReference(a.scenario, a.overrides, a.referenceLimits, false, &reference);
     const auto& s = loaded.scenario;
-    limitProcessorTime(1.5 * s.timeLimit +
-                       a.referenceLimits.seconds);  // engine, metrics and reference together
+    limitTime(1.5 * s.timeLimit + a.referenceLimits.seconds);  // engine, metrics and reference together
     const double dt = a.timeStep.empty() ? s.timeSteps.front() : parseTimeStep(a.timeStep);
     std::ofstream csvFile;
     std::ostream* csv = nullptr;

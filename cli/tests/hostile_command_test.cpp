@@ -4,6 +4,7 @@
 // Messages and exit codes for files and modules that mean harm, and for an output that cannot be written.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -63,6 +64,32 @@ TEST(HostileCommands, NoMessageSteersTheTerminal) {
         EXPECT_EQ(result.code, 2) << arguments;
         EXPECT_THAT(result.out, Not(HasSubstr("\x1b"))) << arguments;
     }
+}
+
+TEST(HostileCommands, AnEngineThatSleepsIsEndedAfterItsTimeLimit) {
+    const std::string doubles = "RIGOR_ADAPTER_PATH=" RIGOR_BINARY_DIR "/tests/doubles";
+    const std::string sleeper = hostileFile("sleeper.json", "") +
+                                " --engine double_free_flight:pause_us=1000000 --set time_limit=0.1";
+    for (const std::string& arguments :
+         {"run " + sleeper + " --reference-limit 0.5", "draw " + sleeper + " --at 0.2 --out /dev/null"}) {
+        const auto start = std::chrono::steady_clock::now();
+        const Result result = rigor(arguments, true, doubles);
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        EXPECT_EQ(result.code, 5) << arguments << ": " << result.out;
+        EXPECT_THAT(result.out, HasSubstr("no end within its time limit")) << arguments;
+        EXPECT_LT(seconds, 15.0) << arguments << ": its 20 steps sleep for a second each";
+    }
+}
+
+TEST(HostileCommands, AReaderMayTakeItsTime) {
+    // More than a pipe holds, from a run whose time limit, with the two seconds of one that is blocked, is three seconds.
+    const std::string doubles = "RIGOR_ADAPTER_PATH=" RIGOR_BINARY_DIR "/tests/doubles";
+    const Result result = rigor("run " + hostileFile("written.json", "") +
+                                    " --engine double_free_flight --dt 1e-4 --set time_limit=0.1 "
+                                    "--reference-limit 0.5 --csv - 2>&1 | (sleep 6; wc -l)",
+                                false, doubles);
+    EXPECT_EQ(std::stoi(result.out), 1 + 2001) << "a heading, the start and 2000 steps";
 }
 
 TEST(HostileCommands, AModuleThatFitsNothingIsARedRow) {

@@ -26,17 +26,6 @@ double seconds(const timeval& t) {
     return t.tv_sec + 1e-6 * t.tv_usec;
 }
 
-/// Processor time of a process and its threads so far [s]; negative where it is not known.
-double processorTimeOf(pid_t pid) {
-    clockid_t clock = 0;
-    timespec t{};
-    if (clock_getcpuclockid(pid, &clock) != 0 || clock_gettime(clock, &t) != 0) return -1.0;
-    return t.tv_sec + 1e-9 * t.tv_nsec;
-}
-
-/// A child that has done nothing for so long is blocked: on a busy machine it would have had its turn.
-constexpr auto kBlocked = std::chrono::seconds(2);
-
 /// Number of processes that the system has killed for want of memory; 0 if it does not count them.
 std::int64_t memoryKillsOfSystem() {
     std::ifstream in("/proc/vmstat");
@@ -69,6 +58,13 @@ std::string environmentFailure(const ProcessResult& result) {
 }
 
 }  // namespace
+
+double processorTimeOf(pid_t pid) {
+    clockid_t clock = 0;
+    timespec t{};
+    if (clock_getcpuclockid(pid, &clock) != 0 || clock_gettime(clock, &t) != 0) return -1.0;
+    return t.tv_sec + 1e-9 * t.tv_nsec;
+}
 
 double timeLimitFactor() {
     return isSanitized() ? 10.0 : 1.0;
@@ -121,7 +117,7 @@ void ProcessPool::start(ProcessTask task) {
     }
     close(ends[1]);
     const auto now = Clock::now();
-    const auto limit = std::chrono::duration<double>(task.limits.seconds * timeLimitFactor());
+    const double limit = task.limits.seconds * timeLimitFactor();
     Running& child = running_.emplace_back();
     child.task = std::move(task);
     ++child.task.starts;
@@ -129,8 +125,8 @@ void ProcessPool::start(ProcessTask task) {
     child.pid = pid;
     child.output = ends[0];
     child.started = now;
-    child.deadline = now + std::chrono::duration_cast<Clock::duration>(limit);
-    child.workedAt = child.deadline;
+    child.deadline = now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit));
+    child.limit = TimeLimit(limit);
     child.result.hadLentGuest = loan.has_value();
     child.loan = std::move(loan);
 }
@@ -159,18 +155,9 @@ void ProcessPool::waitForEvents() {
 }
 
 bool ProcessPool::isOverTime(Running& child) {
-    const auto now = Clock::now();
-    if (now < child.deadline) return false;
-    const double limit = child.task.limits.seconds * timeLimitFactor();
     double cpu = processorTimeOf(child.pid);
     if (cpu >= 0.0 && child.loan) cpu += KeptGuests::used(*child.loan);
-    if (cpu < 0.0 || cpu >= limit) return true;
-    if (now - child.started >= std::chrono::duration<double>(kMostWaiting * limit)) return true;
-    if (cpu > child.cpuSeen + 1e-3) {
-        child.cpuSeen = cpu;
-        child.workedAt = now;
-    }
-    return now - child.workedAt >= kBlocked;
+    return child.limit.isOver(std::chrono::duration<double>(Clock::now() - child.started).count(), cpu);
 }
 
 /// True when the child has ended and its result is complete.

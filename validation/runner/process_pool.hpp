@@ -24,19 +24,17 @@
 
 #include "validation/runner/fork_server.hpp"
 #include "validation/runner/kept_guests.hpp"
+#include "validation/runner/time_limit.hpp"
 
 namespace rigor::validation {
 
 struct ProcessLimits {
-    /// Wall time; then the group is killed, but not as long as the child works and has had less processor
-    /// time than that: on a busy machine a child gets a part of the clock alone. The limit is at most
-    /// kMostWaiting times as long.
+    /// Time of a child (TimeLimit); then the group is killed.
     double seconds = 60.0;
     std::size_t memoryMiB =
         0;  ///< address space; 0: none. It is not set in sanitizer builds, which reserve terabytes.
 };
 
-inline constexpr double kMostWaiting = 20.0;
 inline constexpr int kMostStarts = 3;
 
 struct ProcessResult {
@@ -97,8 +95,7 @@ class ProcessPool {
         pid_t pid = -1;
         int output = -1;
         Clock::time_point started, deadline;
-        double cpuSeen = 0.0;          ///< processor time when it was last checked after the deadline [s]
-        Clock::time_point workedAt;    ///< time at which that had grown
+        TimeLimit limit{0.0};
         std::int64_t memoryKills = 0;  ///< number of kills by the system before its start
         ProcessResult result;
         std::optional<KeptGuests::Loan> loan;
@@ -119,6 +116,9 @@ class ProcessPool {
     std::unique_ptr<KeptGuests> guests_;
     ForkServers servers_;
 };
+
+/// Processor time of a process and its threads so far [s]; negative where it is not known.
+double processorTimeOf(pid_t pid);
 
 /// Factor on time limits: sanitizer builds are that much slower.
 double timeLimitFactor();
