@@ -80,16 +80,24 @@ scenario::LoadedScenario ReferenceChecks::load(const std::string& nameOrFile,
 }
 
 std::map<std::string, validation::ReferenceCheck> ReferenceChecks::check(
-    const validation::ReferenceLimits& limits, int jobs, bool mustHold) const {
-    const auto checks = validation::checkReferences(questions_, limits, ownBinary(), jobs);
+    const validation::ReferenceLimits& limits, int jobs, bool mustHold,
+    const std::set<std::string>* only) const {
+    std::vector<validation::ReferenceQuestion> requested;
+    std::vector<Loaded> loaded;
+    for (std::size_t i = 0; i < questions_.size(); ++i)
+        if (only == nullptr || only->contains(questions_[i].name)) {
+            requested.push_back(questions_[i]);
+            loaded.push_back(loaded_[i]);
+        }
+    const auto checks = validation::checkReferences(requested, limits, ownBinary(), jobs);
     std::map<std::string, validation::ReferenceCheck> byName;
     for (std::size_t i = 0; i < checks.size(); ++i) {
         const auto& check = checks[i];
-        byName[questions_[i].name] = check;
+        byName[requested[i].name] = check;
         if (check.problem.empty()) continue;
         const scenario::Problem problem{
-            problemId(check.outcome), loaded_[i].file.string(), "/reference", loaded_[i].line, check.problem,
-            expectedOf(check.outcome)};
+            problemId(check.outcome), loaded[i].file.string(), "/reference",
+            loaded[i].line,           check.problem,           expectedOf(check.outcome)};
         if (mustHold || check.outcome == ReferenceOutcome::Invalid) throw scenario::LoadError({problem});
         std::fprintf(stderr, "%s; it runs without a reference\n", problem.text().c_str());
     }

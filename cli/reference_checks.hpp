@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,10 @@ class ReferenceChecks {
     /// Loads a scenario as loadWithReference (command.hpp) does, its reference still unknown.
     scenario::LoadedScenario load(const std::string& nameOrFile, const std::vector<std::string>& overrides);
     /// Results of the references, by name of the scenario (the one that was loaded last), `jobs` of them computed
-    /// at a time. Reports and throws as loadWithReference does.
-    std::map<std::string, validation::ReferenceCheck> check(const validation::ReferenceLimits& limits,
-                                                            int jobs, bool mustHold = false) const;
+    /// at a time, of `only` these scenarios if that is given. Reports and throws as loadWithReference does.
+    std::map<std::string, validation::ReferenceCheck> check(
+        const validation::ReferenceLimits& limits, int jobs, bool mustHold = false,
+        const std::set<std::string>* only = nullptr) const;
 
   private:
     struct Loaded {

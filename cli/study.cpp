@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
@@ -18,7 +20,7 @@ namespace rigor::cli {
 namespace {
 
 struct StudyArguments {
-    std::string study, out;
+    std::string study, out, shard;
     std::vector<std::string> parts;
     validation::ReferenceLimits referenceLimits;
     int jobs = 1, orders = 1;
@@ -41,6 +43,40 @@ scenario::Study chosenParts(scenario::Study study, const std::vector<std::string
     return study;
 }
 
+/// Shows the progress of `work`, which gets the function for it and the flag of Ctrl-C. Empty after Ctrl-C.
+template <class Work>
+std::optional<results::Run> runInterruptibly(const StudyArguments& a, const validation::RunOptions& options,
+                                             std::size_t cases, Work work) {
+    const std::atomic<bool>& interrupted = catchInterrupts();
+    ProgressLine line(a.quiet);
+    std::string again = options.command;
+    if (!a.resume) again += " --resume";
+    if (a.out.empty()) again += " --out " + options.directory.string();
+    auto run = orStopped(line, again, [&] {
+        return work([&](const validation::Progress& p) { line.update(p); }, interrupted);
+    });
+    if (!interrupted) return run;
+    std::fprintf(stderr, "Interrupted: %zu of %zu cases are stored. Go on with --resume --out %s\n",
+                 run.cases.size(), cases, options.directory.c_str());
+    return std::nullopt;
+}
+
+/// Runs the cases of a shard. What they mean together is said when all shards are merged.
+int runShard(const std::vector<validation::CasePlan>& cases, const StudyArguments& a,
+             const validation::RunOptions& options) {
+    if (options.resume) checkResumed(options.directory, cases);
+    const auto run =
+        runInterruptibly(a, options, cases.size(), [&](const auto& onProgress, const auto& interrupted) {
+            return validation::runCases(cases, options, onProgress, interrupted);
+        });
+    if (!run) return kInterrupted;
+    std::printf(
+        "Shard %s: %zu cases are stored in %s. `rigor merge` makes one run of all shards, and `rigor study "
+        "%s --resume --out RUN` its tables\n",
+        a.shard.c_str(), run->cases.size(), options.directory.c_str(), a.study.c_str());
+    return kOk;
+}
+
 int runStudy(const StudyArguments& a) {
     auto study = chosenParts(scenario::loadStudy(scenario::findStudy(a.study)), a.parts);
     for (const std::string& line : validation::leaveOutAbsent(study))
@@ -55,7 +91,14 @@ int runStudy(const StudyArguments& a) {
         },
         [](const std::string& engine) { return validation::describeEngine(engine, ownBinary()).options; });
     validation::checkPlan(plan.cases, ownBinary());
-    options.references = references.check(a.referenceLimits, a.jobs);
+    std::set<std::string> scenarios;
+    if (!a.shard.empty()) {
+        options.shard = validation::parseShard(a.shard);
+        plan.cases = validation::casesOfShard(plan.cases, *options.shard);
+        for (const auto& c : plan.cases) scenarios.insert(c.scenario.name);
+    }
+    options.references =
+        references.check(a.referenceLimits, a.jobs, false, a.shard.empty() ? nullptr : &scenarios);
 
     options.directory = chooseRunFolder(a.out, a.resume, study.name);
     prepareRunFolder(options.directory, a.resume);
@@ -66,25 +109,17 @@ int runStudy(const StudyArguments& a) {
     options.suite = study.name;
     options.command = ownCommandLine();
     options.orders = a.orders;
+    if (options.shard) return runShard(plan.cases, a, options);
     if (options.resume) {
         validation::extendFromFolder(plan, options.directory);
         checkResumed(options.directory, plan.cases);
     }
-    const std::atomic<bool>& interrupted = catchInterrupts();
-    ProgressLine line(a.quiet);
-    std::string again = options.command;
-    if (!a.resume) again += " --resume";
-    if (a.out.empty()) again += " --out " + options.directory.string();
-    const auto run = orStopped(line, again, [&] {
-        return validation::runStudyCases(
-            plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
-    });
-    if (interrupted) {
-        std::fprintf(stderr, "Interrupted: %zu of %zu cases are stored. Go on with --resume --out %s\n",
-                     run.cases.size(), plan.cases.size(), options.directory.c_str());
-        return kInterrupted;
-    }
-    const auto result = validation::evaluateStudy(plan, run);
+    const auto run =
+        runInterruptibly(a, options, plan.cases.size(), [&](const auto& onProgress, const auto& interrupted) {
+            return validation::runStudyCases(plan, options, onProgress, interrupted);
+        });
+    if (!run) return kInterrupted;
+    const auto result = validation::evaluateStudy(plan, *run);
     validation::writeStudyFiles(result, options.directory, options.command);
     report::writeReports(options.directory);
     if (a.json) {
@@ -115,6 +150,10 @@ void addStudy(CLI::App& app, Action& action) {
             "--orders", a->orders,
             "Run every case in so many orders of insertion; ranges stand in the store and the report")
         ->check(CLI::Range(1, 1000));
+    command->add_option(
+        "--shard", a->shard,
+        "Run the K-th of N parts of the plan (K/N), without tables and report: for many machines; "
+        "`rigor merge` makes one run of them, and --resume --out RUN the tables of that");
     addReferenceLimit(*command, a->referenceLimits);
     command->add_flag("--resume", a->resume, "Go on with an interrupted run (--out, or the latest)");
     command->add_flag("--audit", a->audit,

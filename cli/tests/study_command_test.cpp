@@ -54,6 +54,43 @@ TEST(StudyCommand, RunsAFileAndKeepsAFolder) {
     EXPECT_EQ(json::parse(again.out).at("parts"), out.at("parts")) << "nothing is run a second time";
 }
 
+/// Tables without what differs from run to run.
+json timeless(const std::string& text) {
+    json parts = json::parse(text).at("parts");
+    for (json& part : parts)
+        for (json& row : part.at("rows")) row.at("metrics").erase("time.step");
+    return parts;
+}
+
+TEST(StudyCommand, ShardsGiveTheTablesOfTheWholeStudy) {
+    const auto study = (fs::path(testing::TempDir()) / "shared_study.json").string();
+    std::ofstream(study) << R"({"rigor_study": 1, "name": "shared", "parts": [
+        {"name": "masses", "scenarios": ["slide_and_stop", "free_flight"], "dt": [0.01],
+         "metrics": ["position_final", "time.step"], "variants": ["rigor", "ode:preset=matched"],
+         "symmetries": ["mirror", "time_reversal"]}]})";
+    const auto folder = fs::path(testing::TempDir()) / "study-shards";
+    fs::remove_all(folder);
+    const auto out = [&](const std::string& name) { return " -q --out " + (folder / name).string(); };
+    const auto whole = rigor("study " + study + " --json" + out("whole"), false);
+    ASSERT_EQ(timeless(whole.out).at(0).at("rows").size(), 4u);
+    std::string shards;
+    for (const char* shard : {"1/3", "2/3", "3/3"}) {
+        const std::string name = std::string("shard") + shard[0];
+        const auto run = rigor("study " + study + " --shard " + shard + out(name));
+        EXPECT_EQ(run.code, 0) << run.out;
+        EXPECT_FALSE(fs::exists(folder / name / "study.json"));
+        shards += " " + (folder / name).string();
+    }
+    const auto merged = (folder / "merged").string();
+    EXPECT_EQ(rigor("merge" + shards + " --out " + merged).code, 0);
+    const auto tables = rigor("study " + study + " --json --resume -q --out " + merged, false);
+    EXPECT_EQ(tables.code, whole.code);
+    EXPECT_EQ(timeless(tables.out), timeless(whole.out));
+    EXPECT_TRUE(fs::exists(folder / "merged/study.md"));
+    EXPECT_EQ(rigor("study " + study + " --shard 4/3" + out("none")).code, 2);
+    EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
 TEST(StudyCommand, BadInputIsSaid) {
     const auto symptom = rigor("study " + writeStudy("2000").string());
     EXPECT_EQ(symptom.code, 2);
