@@ -11,7 +11,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -126,20 +128,53 @@ TEST_F(Served, AForkIsSetUpAsAStartedProgramIs) {
     EXPECT_TRUE(isServed("free_flight"));
 }
 
-/// The heaps of started programs are at random addresses; those of forks differ, too.
-TEST_F(Served, ForksHaveTheirHeapsAtRandomAddresses) {
-    std::set<std::string> heaps;
+/// The heaps and mappings of started programs are at random addresses; those of forks differ, too.
+TEST_F(Served, ForksHaveTheirHeapsAndMappingsAtRandomAddresses) {
+    std::set<std::string> heaps, reserved;
+    const auto lineOf = [](const std::string& maps, std::size_t place) {
+        const auto line = maps.rfind('\n', place) + 1;
+        return place == std::string::npos ? "" : maps.substr(line, maps.find(' ', line) - line);
+    };
     for (int k = 0; k < 3; ++k) {
         const auto child = startWaiting();
         ASSERT_TRUE(child);
         const std::string maps = bytesOf(folderOf(*child) / "maps");
-        const auto heap = maps.rfind("[heap]"), line = maps.rfind('\n', heap) + 1;
-        ASSERT_NE(heap, std::string::npos);
-        heaps.insert(maps.substr(line, maps.find(' ', line) - line));
+        heaps.insert(lineOf(maps, maps.rfind("[heap]")));
+        reserved.insert(lineOf(maps, maps.find(" ---p 00000000 00:00 0")));  // below it new mappings are made
         kill(child->pid, SIGKILL);
         (void)end(*child);
     }
-    EXPECT_GT(heaps.size(), 1u);
+    for (const auto* places : {&heaps, &reserved}) {
+        EXPECT_GT(places->size(), 1u);
+        EXPECT_FALSE(places->contains(""));
+    }
+}
+
+/// A child that is forked from another server than that of its auditor would load the auditor itself.
+TEST_F(Served, AnAuditIsForkedFromTheServerOfItsAuditor) {
+    const fs::path modules = scratch_.path() / "modules", loads = scratch_.path() / "loads";
+    fs::create_directories(modules);
+    for (const char* name : {"auditor", "free_flight"}) {
+        const std::string file = std::string("rigor_adapter_double_") + name + ".so";
+        fs::copy_file(fixtures::buildFolder() / "tests/doubles" / file, modules / file);
+    }
+    setenv("RIGOR_ADAPTER_PATH", modules.c_str(), 1);
+    setenv("RIGOR_DOUBLE_LOADS", loads.c_str(), 1);
+    std::vector<std::string> scenarios;
+    for (const char* name : {"crossing_1", "crossing_2", "crossing_3", "crossing_4"}) {
+        std::string text = fixtures::crossingBalls();
+        scenarios.push_back(text.replace(text.find("crossing_balls"), std::strlen("crossing_balls"), name));
+    }
+    RunOptions audited = options();
+    audited.audit = true;
+    const auto run = Served::run(fixtures::plan(scenarios, "double_free_flight:preset=matched"), audited);
+    unsetenv("RIGOR_DOUBLE_LOADS");
+    ASSERT_EQ(run.cases.size(), 4u);
+    for (const auto& row : run.cases) EXPECT_FALSE(row.audit.empty());
+    const std::string noted = bytesOf(loads);
+    EXPECT_LE(std::count(noted.begin(), noted.end(), '\n'), 3)
+        << "it is loaded to be described and by its server, and once more where the server needs long to "
+           "load";
 }
 
 TEST_F(Served, ModulesThatLeaveSomethingBehindAreNot) {
