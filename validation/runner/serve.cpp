@@ -41,18 +41,19 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t kMostBytes = 1 << 16;  ///< bytes of a request
 
-/// Memory of this process's arguments, as the list of processes shows them.
-class ArgumentMemory {
+/// Places in the memory of this process (proc(5)): its arguments, as the list of processes shows them, and its heap.
+class OwnMemory {
   public:
-    ArgumentMemory() {
+    OwnMemory() {
         std::ifstream in("/proc/self/stat");
         std::string text((std::istreambuf_iterator<char>(in)), {});
         std::istringstream fields(text.substr(text.rfind(')') + 1));
         std::string skipped;
-        constexpr int kBeforeArguments = 45;  // fields 3 to 47 of proc(5)
-        for (int i = 0; i < kBeforeArguments; ++i) fields >> skipped;
-        std::uintptr_t begin = 0, end = 0;
-        if (!(fields >> begin >> end) || begin == 0 || end <= begin) return;
+        constexpr int kBeforeHeap = 44;  // fields 3 to 46
+        for (int i = 0; i < kBeforeHeap; ++i) fields >> skipped;
+        std::uintptr_t heap = 0, begin = 0, end = 0;
+        if (!(fields >> heap >> begin >> end) || begin == 0 || end <= begin) return;
+        heap_ = reinterpret_cast<char*>(heap);
         begin_ = reinterpret_cast<char*>(begin);
         size_ = end - begin;
     }
@@ -66,8 +67,18 @@ class ArgumentMemory {
         }
     }
 
+    /// Copies the pages of the heap that a fork shares with its server, all at once. Each of them would otherwise be
+    /// copied when it is first written, with a page fault of its own. A system that cannot do this does that.
+    void copyHeap() const {
+        const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+        const auto begin = reinterpret_cast<std::uintptr_t>(heap_) / page * page;
+        const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0));
+        if (begin != 0 && end > begin)
+            (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE);
+    }
+
   private:
-    char* begin_ = nullptr;
+    char *begin_ = nullptr, *heap_ = nullptr;
     std::size_t size_ = 0;
 };
 
@@ -174,7 +185,7 @@ void moveAddresses() {
 
 /// The first steps of a forked child. A parent that gave up waiting for its report starts the case anew: then this
 /// process must not go on. From the report on it is one that others may look for and stop.
-void becomeChild(const ForkRequest& request, ArgumentMemory& shown, pid_t parent, int socket) {
+void becomeChild(const ForkRequest& request, OwnMemory& memory, pid_t parent, int socket) {
     settleChild(parent, request.memoryMiB);
     dup2(request.output, STDOUT_FILENO);
     dup2(request.output, STDERR_FILENO);
@@ -182,8 +193,9 @@ void becomeChild(const ForkRequest& request, ArgumentMemory& shown, pid_t parent
     if (char* mark = std::getenv(kAncestorVariable)) setMarkedChild(mark, getpid());
     if (!report(socket, getpid())) _exit(kExitEnvironment);
     close(socket);
+    memory.copyHeap();
     moveAddresses();
-    shown.write(request.arguments);
+    memory.write(request.arguments);
 }
 
 }  // namespace
@@ -211,21 +223,21 @@ std::vector<std::string> serveRequests(const fs::path& module, int socket) {
     fcntl(socket, F_SETFD, FD_CLOEXEC);
     unsetenv(kBindNow);
     const pid_t parent = getppid();
-    ArgumentMemory shown;
+    OwnMemory memory;
     ThreadRecords thread;
     const Footprint before;
     prepareLibraries();
     bool isClean = thread.find();
     if (!module.empty()) isClean &= isLoadedCleanly(module);
     isClean &= Footprint().isClean(before);
-    shown.write({shown.program(), kServeCommand, module.string()});
+    memory.write({memory.program(), kServeCommand, module.string()});
     std::fflush(nullptr);
     (void)send(socket, &isClean, sizeof isClean, MSG_NOSIGNAL);
     for (;;) {
         const ForkRequest request = receiveRequest(socket);
         const pid_t child = forkForParent(thread);
         if (child == 0) {
-            becomeChild(request, shown, parent, socket);
+            becomeChild(request, memory, parent, socket);
             return {request.arguments.begin() + 1, request.arguments.end()};
         }
         close(request.output);
