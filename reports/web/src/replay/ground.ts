@@ -2,8 +2,19 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Half-spaces: a grid on the surface that fades away, or in 2D a filled half with a line.
-import { Color, DoubleSide, Group, Matrix4, Mesh, PlaneGeometry, Quaternion, ShaderMaterial, Vector3 } from 'three';
+import {
+  Color,
+  DoubleSide,
+  Group,
+  type LineSegments,
+  Mesh,
+  PlaneGeometry,
+  Quaternion,
+  ShaderMaterial,
+  Vector3,
+} from 'three';
 import type { Theme } from './colours.ts';
+import { gridLines, groundLines } from './ground_lines.ts';
 import type { Scene } from './scene.ts';
 import { add, rotate, scaled, type Vec3 } from './vectors.ts';
 
@@ -35,6 +46,7 @@ export class Ground {
   readonly #scene: Scene;
   readonly #materials: ShaderMaterial[] = [];
   readonly #plane = new PlaneGeometry(2, 2);
+  #inLines = false;
 
   constructor(scene: Scene) {
     this.#scene = scene;
@@ -57,6 +69,12 @@ export class Ground {
         const foot = add(center, scaled(n, -away));
         this.#add(flat, foot, n, cell, reach, theme);
       }
+  }
+
+  /** Drawn as lines alone, or shaded. In 2D it is always shaded. */
+  set inLines(on: boolean) {
+    this.#inLines = on && this.#scene.dimension === 3;
+    for (const child of this.group.children) child.visible = (child.type === 'LineSegments') === this.#inLines;
   }
 
   #add(flat: boolean, foot: Vec3, n: Vec3, cell: number, reach: number, theme: Theme): void {
@@ -86,12 +104,20 @@ export class Ground {
     // the shader reads lengths: the plane's corners are in metres
     const geometry = this.#plane.clone().scale(reach, reach, 1);
     if (flat) geometry.translate(0, -reach, 0);
-    const mesh = new Mesh(geometry, material);
-    mesh.matrixAutoUpdate = false;
-    mesh.matrix.copy(new Matrix4().compose(new Vector3(...foot), rotation, new Vector3(1, 1, 1)));
-    mesh.renderOrder = -1;
     this.#materials.push(material);
-    this.group.add(mesh);
+    const drawn: (Mesh | LineSegments)[] = [new Mesh(geometry, material)];
+    if (!flat) {
+      const lines = groundLines(gridLines(cell, 0.25 * reach, reach, shift), theme.ground);
+      this.#materials.push(lines.material);
+      drawn.push(lines);
+    }
+    for (const object of drawn) {
+      object.matrixAutoUpdate = false;
+      object.matrix.compose(new Vector3(...foot), rotation, new Vector3(1, 1, 1));
+      object.renderOrder = -1;
+      this.group.add(object);
+    }
+    this.inLines = this.#inLines;
   }
 
   #clear(): void {

@@ -36,6 +36,17 @@ export function tile(count: number, width: number, height: number, aspect = 1.25
   }));
 }
 
+/** Parts of a canvas so wide that its rows of pictures leave free: beside each picture, and below each row but the last. */
+export function gapsOf(rects: readonly Rect[], width: number): Rect[] {
+  return rects.flatMap(({ x, y, width: w, height: h }, i) => {
+    const next = rects[i + 1];
+    const right = next?.y === y ? next.x : width;
+    const beside = { x: x + w, y, width: right - x - w, height: h };
+    const below = { x: 0, y: y + h, width, height: next && next.y !== y ? next.y - y - h : 0 };
+    return [beside, below].filter((r) => r.width > 1e-6 && r.height > 0);
+  });
+}
+
 /** Index of the picture that holds the point, or -1. */
 export function rectAt(rects: readonly Rect[], x: number, y: number): number {
   return rects.findIndex((r) => x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height);

@@ -94,6 +94,11 @@ export class SourceLayer {
     this.#overlays.pixels = (this.#scene.bodies.length > 60 ? 5 : 8) * ratio;
   }
 
+  /** The ground as lines alone, which costs little, or shaded. */
+  set groundInLines(on: boolean) {
+    this.#ground.inLines = on;
+  }
+
   /** Whether the frame of a time is the one that is shown. */
   isAt(time: number): boolean {
     const { times } = this.source;

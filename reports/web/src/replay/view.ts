@@ -19,7 +19,7 @@ import { legendOf } from './legend.ts';
 import { occludingBodies } from './occluder_fade.ts';
 import type { ArrowScales } from './overlays.ts';
 import { Pace } from './pace.ts';
-import { nearestContact, type Rect, rectAt, tile, toDevice } from './picking.ts';
+import { gapsOf, nearestContact, type Rect, rectAt, tile, toDevice } from './picking.ts';
 import type { Scene } from './scene.ts';
 import { TemplateCache } from './shape_meshes.ts';
 import { drawsInSoftware } from './software.ts';
@@ -379,7 +379,7 @@ export class ReplayView {
   /** Draws now. */
   draw(): void {
     this.#useRatio(drawsInSoftware() ? this.#pace.ratioAt(performance.now()) : pixelRatio());
-    this.#drawNow();
+    this.#drawNow(false);
     clearTimeout(this.#finer);
     if (drawsInSoftware()) this.#finer = setTimeout(() => this.drawFine(), stillAfter);
   }
@@ -387,7 +387,7 @@ export class ReplayView {
   /** Draws once with smooth edges, which takes long in software. */
   drawFine(): void {
     this.#useRatio(2);
-    this.#drawNow();
+    this.#drawNow(true);
   }
 
   #useRatio(ratio: number): void {
@@ -396,26 +396,23 @@ export class ReplayView {
     for (const { layers } of this.#pictures) for (const layer of layers) layer.pixelRatio = ratio;
   }
 
-  #drawNow(): void {
+  /** `fine`: as well as it can be; else as a picture that moves is drawn in software. */
+  #drawNow(fine: boolean): void {
     cancelAnimationFrame(this.#requested);
     this.#requested = 0;
     const start = performance.now();
     this.#renderer.info.reset();
     let own = 0;
-    this.#renderer.setScissorTest(false);
-    this.#renderer.setClearColor(this.#clear.set(this.#theme.gap), 1);
-    this.#renderer.clear();
-    this.#renderer.setClearColor(this.#clear.set(this.#theme.background), 1);
-    this.#renderer.setScissorTest(true);
+    this.#clearAll();
     const alone = this.findingNotes !== null; // nothing else stands at the place of a finding
     for (const { panel, layers } of this.#pictures) {
       this.#rig.shape(panel.rect);
       const { x, y, width, height } = panel.rect;
       this.#renderer.setViewport(x, this.#height - y - height, width, height);
       this.#renderer.setScissor(x, this.#height - y - height, width, height);
-      this.#renderer.clear();
       for (const layer of layers) {
         if (layer.source.ghost && alone) continue;
+        layer.groundInLines = !fine && drawsInSoftware();
         const before = performance.now();
         if (layer.seek(this.#time) || this.#stale) layer.paint(this.options, this.#theme, this.#scales, this.#marked);
         own += performance.now() - before;
@@ -427,6 +424,20 @@ export class ReplayView {
     this.spent.all = (performance.now() - start) / 1e3;
     this.spent.calls = this.#renderer.info.render.calls;
     this.onDraw?.();
+  }
+
+  /** The background at once, then the colour of what lies between and beside the pictures. */
+  #clearAll(): void {
+    this.#renderer.setScissorTest(false);
+    this.#renderer.setClearColor(this.#clear.set(this.#theme.background), 1);
+    this.#renderer.clear();
+    this.#renderer.setScissorTest(true);
+    this.#renderer.setClearColor(this.#clear.set(this.#theme.gap), 1);
+    const rects = this.#pictures.map(({ panel }) => panel.rect);
+    for (const { x, y, width, height } of gapsOf(rects, this.#width)) {
+      this.#renderer.setScissor(x, this.#height - y - height, width, height);
+      this.#renderer.clearColor();
+    }
   }
 
   #panelAt(x: number, y: number): number {
