@@ -5,6 +5,7 @@
 // buttons and keys know these interfaces alone.
 import type { FrameSource } from './frames.ts';
 import type { LayerName } from './layers.ts';
+import type { Choosable } from './pinned.ts';
 import type { Player } from './player.ts';
 import type { ReplayView } from './view.ts';
 
@@ -25,6 +26,8 @@ export interface ReplayActions {
   /** True while the camera goes along with the chosen body, and while clicks are points to measure. */
   readonly following: boolean;
   readonly measuring: boolean;
+  /** Chooses the next body or contact, or the one before it. */
+  choose(what: Choosable, forward: boolean): void;
   toggleFollow(): void;
   toggleMeasure(): void;
   save(what: Saved): Promise<void>;

@@ -26,6 +26,22 @@ const saved: [what: Saved, text: string, title: string][] = [
   ['csv', '⤓ CSV', 'Save the states of all bodies of the engines that are shown'],
 ];
 
+/** The identity of a control, which outlasts its element. */
+const keyOf = (e: Element) => ['data-switch', 'data-action', 'aria-label'].map((name) => e.getAttribute(name)).join();
+
+/** Replaces the controls of a group; the one that has the focus gives it to the one that stands for it. */
+function replaceKeepingFocus(group: HTMLElement, nodes: readonly HTMLElement[]): void {
+  const focused = group.contains(document.activeElement) ? document.activeElement : null;
+  group.replaceChildren(...nodes);
+  if (!focused) return;
+  const key = keyOf(focused);
+  for (const e of group.querySelectorAll<HTMLElement>('button, input, select'))
+    if (keyOf(e) === key) {
+      e.focus({ preventScroll: true });
+      return;
+    }
+}
+
 export class Controls implements ControlActions {
   readonly element: HTMLElement;
   readonly #stage: ReplayActions;
@@ -149,8 +165,9 @@ export class Controls implements ControlActions {
 
   #refreshEngines(): void {
     const stage = this.#stage;
-    this.#engines.replaceChildren(
-      ...stage.engines.map((source) => {
+    replaceKeepingFocus(
+      this.#engines,
+      stage.engines.map((source) => {
         const able = source.times.length > 0;
         const chip = this.#chip(
           source.label,
@@ -188,7 +205,7 @@ export class Controls implements ControlActions {
       chips.push(slider('depth', exaggeration, 0, 12, (v) => stage.setOptions({ exaggeration: v })));
     if (layers.velocities || layers.spins || layers.impulses)
       chips.push(slider('arrows', arrows, -4, 4, (v) => stage.setOptions({ arrows: v })));
-    this.#layers.replaceChildren(...chips);
+    replaceKeepingFocus(this.#layers, chips);
   }
 
   #refreshModes(): void {
@@ -206,7 +223,7 @@ export class Controls implements ControlActions {
       () => void stage.loadAll(),
       'all',
     );
-    this.#modes.replaceChildren(
+    replaceKeepingFocus(this.#modes, [
       this.#chip('side by side', !overlaid, 'One picture each (o)', () => this.overlay(false), 'side'),
       this.#chip('overlaid', overlaid, 'All in one picture (o)', () => this.overlay(true), 'overlaid'),
       select,
@@ -243,7 +260,7 @@ export class Controls implements ControlActions {
           ),
         ),
       ),
-    );
+    ]);
   }
 
   toggle(name: LayerName): void {

@@ -32,7 +32,7 @@ import { decodeLink, encodeLink, viewOfHash, withView } from './link.ts';
 import { Measure } from './measure.ts';
 import { NotesLayer, type NotesOf } from './notes_layer.ts';
 import { PanelLabels } from './panel_labels.ts';
-import { contactOf, type Pinned } from './pinned.ts';
+import { type Choosable, chosenNext, contactOf, type Pinned } from './pinned.ts';
 import { Player } from './player.ts';
 import type { Scene } from './scene.ts';
 import { Seldom } from './seldom.ts';
@@ -211,12 +211,26 @@ export class ReplayStage implements ReplayActions {
     this.#lookAtBodies(bodies, source, contact);
   }
 
+  choose(what: Choosable, forward: boolean): void {
+    const source = this.shown.find((s) => s.spec === this.#pinned?.spec) ?? this.shown[0];
+    const frame = source && this.view.frameOf(source)?.frame;
+    const next = source && frame && chosenNext(what, forward, this.#pinned, source.spec, frame, this.#scene);
+    this.controls.say(next ? '' : `There is no ${what} at this time.`);
+    if (!next) return;
+    this.player.pause();
+    this.view.setFinding(null);
+    this.#pinned = next;
+    this.view.mark(next.body);
+    this.#inspect();
+    this.#remember();
+  }
+
   /** The camera goes along with the chosen body, or no longer. */
   toggleFollow(): void {
     this.following = !this.following && this.#pinned !== null;
     this.#followed = null;
     if (!this.following && this.#pinned === null)
-      this.controls.say('Click a body first: the camera goes along with it.');
+      this.controls.say('Choose a body first, by a click or the key s: the camera goes along with it.');
     this.#goAlong();
     this.controls.refresh();
     this.#remember();

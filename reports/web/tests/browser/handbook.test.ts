@@ -8,6 +8,7 @@ import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import type { Page } from 'playwright-core';
+import { axeFindings } from '../axe.ts';
 import { sharedBrowser, skip } from '../browser.ts';
 
 const site = join(process.env.RIGOR_BINARY_DIR ?? '', 'handbook');
@@ -74,6 +75,19 @@ describe('the handbook', { skip: skip || missing }, () => {
       }
     }
     assert.deepEqual(trouble, []);
+  });
+
+  test('a page of each kind has no finding of axe-core', async () => {
+    for (const path of [
+      'en/index.html',
+      'zh/build/sat.html',
+      'en/use/figure.html',
+      'en/reference/specs.html',
+      'en/gallery.html',
+    ]) {
+      await open(path);
+      assert.deepEqual(await axeFindings(page), [], path);
+    }
   });
 
   test('light and dark are chosen by a button and kept', async () => {

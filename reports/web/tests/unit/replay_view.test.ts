@@ -10,6 +10,7 @@ import { distinguishable, lightTheme } from '../../src/replay/colours.ts';
 import type { Contacts, Frame, FrameSource, ReplayEvent } from '../../src/replay/frames.ts';
 import { frameScene, sampled } from '../../src/replay/framing.ts';
 import { roundNumber } from '../../src/replay/ground.ts';
+import { fade, gridLines } from '../../src/replay/ground_lines.ts';
 import { findIslands, UnionFind } from '../../src/replay/islands.ts';
 import {
   contactEvent,
@@ -23,7 +24,8 @@ import { defaultOptions } from '../../src/replay/layers.ts';
 import { decodeLink, encodeLink, viewOfHash, withView } from '../../src/replay/link.ts';
 import { crossesBox, occludingBodies } from '../../src/replay/occluder_fade.ts';
 import { Overlays } from '../../src/replay/overlays.ts';
-import { nearestContact, rectAt, tile, toDevice, toPixels } from '../../src/replay/picking.ts';
+import { gapsOf, nearestContact, rectAt, tile, toDevice, toPixels } from '../../src/replay/picking.ts';
+import { chosenNext, contactOf } from '../../src/replay/pinned.ts';
 import { Player } from '../../src/replay/player.ts';
 import { readScene, type Scene } from '../../src/replay/scene.ts';
 import { TemplateCache } from '../../src/replay/shape_meshes.ts';
@@ -385,4 +387,63 @@ test('presets of one engine are distinguished by lightness', () => {
   assert.equal(c, '#d55e00');
   assert.match(b ?? '', /^#[0-9a-f]{6}$/);
   assert.equal(new Set([a, b, d]).size, 3);
+});
+
+test('pictures and the gaps between them fill the canvas once', () => {
+  const [width, height] = [1000, 600];
+  for (const n of [1, 2, 3, 4, 5, 7]) {
+    const rects = tile(n, width, height, 1.25, 2);
+    const all = [...rects, ...gapsOf(rects, width)];
+    const area = all.reduce((sum, r) => sum + r.width * r.height, 0);
+    assert.ok(Math.abs(area - width * height) < 1e-6 * area, `${n}: ${area}`);
+    for (const [x, y] of [1, 2, 3, 4, 5, 6, 7].map((k) => [(k * 137.3) % width, (k * 83.7) % height] as const))
+      assert.equal(all.filter((r) => x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height).length, 1);
+  }
+});
+
+test('lines of the ground stand at whole cells of the world, and end where they are not seen', () => {
+  const [cell, near, reach, shift] = [0.5, 4, 9, [0.2, -0.7]] as const;
+  const { position, strength } = gridLines(cell, near, reach, shift);
+  assert.equal(position.length, 3 * strength.length);
+  let strong = 0;
+  for (let i = 0; i < strength.length; i += 2) {
+    const [x0, y0, , x1, y1] = position.slice(3 * i, 3 * i + 6) as [number, number, number, number, number];
+    const away = x0 === x1 ? x0 + shift[0] : y0 + shift[1];
+    assert.ok(x0 === x1 || y0 === y1);
+    assert.ok(Math.abs(away / cell - Math.round(away / cell)) < 1e-9, String(away));
+    assert.ok(Math.hypot(x0, y0) <= reach + 1e-9 && Math.hypot(x1, y1) <= reach + 1e-9);
+    if (Math.round(away / cell) % 5 === 0) ++strong;
+  }
+  assert.ok(strong > 0 && strong < strength.length / 2);
+  assert.deepEqual([fade(0), fade(1), fade(2)], [1, 0, 0]);
+  assert.ok(strength.every((s) => s >= 0 && s <= 0.9));
+});
+
+test('keys go through the bodies that move and through the contacts of a frame, in both directions', () => {
+  const bodies = [{ name: 'ground', type: 'static' }, { name: 'a' }, { name: 'wall', type: 'static' }, { name: 'b' }];
+  const scene = readScene({ dimension: 3, gravity: [0, -9.81, 0], bodies });
+  const contacts = { count: 2, bodyA: [0, 1], bodyB: [3, 2], depth: [0, 0] } as unknown as Contacts;
+  const frame = { time: 0, step: 4, contacts } as unknown as Frame;
+  const walk = (what: 'body' | 'contact', forward: boolean, times: number) => {
+    let now = null;
+    for (let i = 0; i < times; ++i) now = chosenNext(what, forward, now, 'e', frame, scene);
+    return now;
+  };
+  assert.deepEqual(
+    [1, 2, 3].map((n) => walk('body', true, n)?.body),
+    [1, 3, 1],
+  );
+  assert.deepEqual(
+    [1, 2, 3].map((n) => walk('body', false, n)?.body),
+    [3, 1, 3],
+  );
+  assert.deepEqual(walk('contact', true, 1), { spec: 'e', body: 3, other: 0, contact: { index: 0, step: 4 } });
+  assert.deepEqual(walk('contact', true, 2), { spec: 'e', body: 1, other: 2, contact: { index: 1, step: 4 } });
+  assert.equal(walk('contact', true, 3)?.contact?.index, 0);
+  assert.equal(walk('contact', false, 1)?.contact?.index, 1);
+  const late = { ...frame, step: 5 };
+  assert.equal(chosenNext('contact', true, walk('contact', true, 2), 'e', late, scene)?.contact?.index, 0);
+  const chosen = walk('contact', true, 2);
+  assert.equal(chosen && contactOf(chosen, frame), 1);
+  assert.equal(chosenNext('contact', true, null, 'e', { ...frame, contacts: null }, scene), null);
 });

@@ -6,12 +6,13 @@ import { columnOf, engineColour, run } from '../run.ts';
 import { panel } from '../widgets.ts';
 import { type Context, findingOf } from './context.ts';
 
-/** The replay of this time step; made when it comes into view or when a link names a moment. */
+/** The replay of this time step; made when it comes into view, gets the focus, or when a link names a moment. */
 export function replay(context: Context): HTMLElement | null {
   const { data, scenario, cases, cursor } = context;
   if (!cases.some((c) => c.trajectoryFile)) return null;
   const times = [...new Set(data.cases.map((c) => c.dt))].sort((a, b) => b - a);
-  const holder = el('div', { class: 'stage' });
+  // It has the focus until there is a picture, which then gets it: keys come here before there is anything to come to.
+  const holder = el('div', { class: 'stage', tabindex: 0, role: 'group', 'aria-label': 'Replay' });
   let handle: ReplayHandle | null = null;
   const mount = () => {
     if (handle) return;
@@ -26,6 +27,10 @@ export function replay(context: Context): HTMLElement | null {
       metrics: scenario.metrics,
       findingOf: (spec, key) => findingOf(cases, spec, key),
     });
+    void handle.ready.then(() => {
+      holder.removeAttribute('tabindex');
+      if (document.activeElement === holder) holder.querySelector('canvas')?.focus();
+    });
     const wanted = cursor.focus.value;
     if (wanted) handle.focus(wanted);
   };
@@ -37,6 +42,7 @@ export function replay(context: Context): HTMLElement | null {
     { rootMargin: '200px' },
   );
   watcher.observe(node);
+  holder.addEventListener('focus', mount);
   cursor.focus.follow(mount); // once it is there it follows by itself
   context.leaving.push(() => {
     watcher.disconnect();
