@@ -77,6 +77,34 @@ describe('the handbook', { skip: skip || missing }, () => {
     assert.deepEqual(trouble, []);
   });
 
+  test('nothing has to be scrolled to before a page is printed', async () => {
+    await page.setViewportSize({ width: 1200, height: 400 });
+    await open('en/build/step.html');
+    const far = page.locator('figure.scene').last();
+    await page.waitForFunction(() => [...document.querySelectorAll('figure.scene')].every((f) => f.matches('.ready')));
+    assert.equal(await page.evaluate(() => scrollY), 0);
+    const top = await far.evaluate((e) => e.getBoundingClientRect().top);
+    assert.ok(top > 400 + 600, `the last scene is near, ${top} px below`);
+    const colours = await far
+      .locator('canvas')
+      .first()
+      .evaluate((c) => {
+        const canvas = c as HTMLCanvasElement;
+        const g = canvas.getContext('2d') as CanvasRenderingContext2D;
+        const { data } = g.getImageData(0, 0, canvas.width, canvas.height);
+        return new Set(new Uint32Array(data.buffer)).size;
+      });
+    assert.ok(colours > 3, `${colours} colours`);
+    await open('en/gallery.html');
+    const pictures = await page
+      .locator('.cards img')
+      .evaluateAll((all) =>
+        all.map((i) => (i as HTMLImageElement).complete && (i as HTMLImageElement).naturalWidth > 0),
+      );
+    assert.ok(pictures.length > 10 && pictures.every(Boolean), pictures.join());
+    assert.deepEqual(trouble, []);
+  });
+
   test('a page of each kind has no finding of axe-core', async () => {
     for (const path of [
       'en/index.html',

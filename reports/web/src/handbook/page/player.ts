@@ -332,7 +332,7 @@ class Panel {
   }
 }
 
-/** Binds the controls of a figure to its recordings, which are loaded when the figure comes near. */
+/** Binds the controls of a figure to its recordings. */
 class Player {
   readonly #figure: HTMLElement;
   readonly #slider: HTMLInputElement;
@@ -426,20 +426,33 @@ class Player {
   }
 }
 
+const whenIdle: (then: () => void) => void = (then) =>
+  'requestIdleCallback' in window ? requestIdleCallback(then) : setTimeout(then, 500);
+
+/** Figures are drawn when they come near, and the others while the browser has nothing else to do: a page may be printed. */
 export function mountPlayers(): void {
   const players = new Map<Element, Player>();
   for (const figure of document.querySelectorAll<HTMLElement>('figure.scene')) players.set(figure, new Player(figure));
+  const drawn = new Set<Element>();
+  const draw = async (figure: Element) => {
+    near.unobserve(figure);
+    if (drawn.has(figure)) return;
+    drawn.add(figure);
+    await players.get(figure)?.load();
+  };
+  const drawAll = async (figures: Iterable<Element>) => {
+    for (const figure of figures) await draw(figure);
+  };
   const near = new IntersectionObserver(
     (entries) => {
       for (const entry of entries) {
-        if (!entry.isIntersecting) continue;
-        near.unobserve(entry.target);
-        void players.get(entry.target)?.load();
+        if (entry.isIntersecting) void draw(entry.target);
       }
     },
     { rootMargin: '600px' },
   );
   for (const figure of players.keys()) near.observe(figure);
+  whenIdle(() => void drawAll(players.keys()));
   const redraw = () => {
     for (const player of players.values()) player.redraw();
   };

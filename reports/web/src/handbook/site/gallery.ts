@@ -58,7 +58,7 @@ export function galleryPage(root: string, program: string, folder: string, langu
     const scenario = JSON.parse(readFileSync(source, 'utf8')) as Json;
     const command = `./rigor ${drawing(picture, picture.scenario, name).join(' ')}`;
     const title = escaped(language === 'zh' ? picture.zh : scenario.title);
-    return `<article class="card"><img src="../pictures/${name}" alt="${title}" loading="lazy"><div class="below"><h2>${title}</h2><p class="muted"><a href="reference/scenarios.html#${picture.scenario}"><code>${picture.scenario}</code></a>, ${escaped(picture.engine)}, ${picture.at} s</p><details><summary>${w.command}</summary><code>${escaped(command)}</code></details></div></article>`;
+    return `<article class="card"><img src="../pictures/${name}" alt="${title}"><div class="below"><h2>${title}</h2><p class="muted"><a href="reference/scenarios.html#${picture.scenario}"><code>${picture.scenario}</code></a>, ${escaped(picture.engine)}, ${picture.at} s</p><details><summary>${w.command}</summary><code>${escaped(command)}</code></details></div></article>`;
   });
   const report = existsSync(join(folder, '../report/index.html'))
     ? `<p><a href="../report/index.html">${w.report}</p>`
