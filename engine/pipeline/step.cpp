@@ -97,6 +97,7 @@ void Step<S>::begin(Real h) {
     wakeByForces(world_, now, now + static_cast<double>(h));
     result_ = {};
     state_.residuals.clear();
+    state_.residuals.reserve(static_cast<std::size_t>(method_.velocityIterations * method_.substeps));
     state_.impacts.clear();
     joints_.clearTotals();
     state_.active = true;

@@ -329,6 +329,20 @@ TYPED_TEST(Chains, ThreadsDoNotChangeABit) {
     EXPECT_EQ(one.world.stateHash(), three.world.stateHash());
 }
 
+/// Joints alone are solved at once in each sweep: what is left of them after some is rounding, in either precision.
+TYPED_TEST(Chains, SweepsEndWhereRoundingIsReached) {
+    using S = TypeParam;
+    Jointed<S> scene(stepped<S>(1));
+    scene.chain(20, 1);
+    double sweeps = 0;
+    constexpr int kSteps = 60;
+    for (int i = 0; i < kSteps; ++i) {
+        scene.world.step(static_cast<typename S::Real>(kStep));
+        sweeps += scene.world.lastStep().iterations;
+    }
+    EXPECT_LT(sweeps / kSteps, 10);
+}
+
 TYPED_TEST(Chains, ASteadyStepDoesNotAllocate) {
     using S = TypeParam;
     Jointed<S> scene(stepped<S>(2));

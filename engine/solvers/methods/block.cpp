@@ -27,6 +27,7 @@
 
 #include "engine/solvers/elimination_order.hpp"
 #include "engine/solvers/independent_parts.hpp"
+#include "engine/solvers/joint_loops.hpp"
 #include "engine/solvers/joints/joint_group.hpp"
 #include "engine/solvers/methods/conjugate_sweeps.hpp"
 #include "engine/solvers/methods/contact_group.hpp"
@@ -52,6 +53,7 @@ class BlockGaussSeidel final : public Solver<S> {
         joints_.begin(input.constraints);
         findGroups(input.constraints.blocks);
         parts_.find<S>(input.constraints.blocks, groups_, input.velocities.size());
+        findLoops(input);
         contacts_.begin(input.constraints, groups_);
         orderGroups(input);
         iterate(input);
@@ -66,6 +68,7 @@ class BlockGaussSeidel final : public Solver<S> {
         solved_.assign(parts_.count(), 0);
         stalled_.assign(parts_.count(), 0);
         before_.assign(parts_.count(), std::numeric_limits<Real>::max());
+        last_.assign(parts_.count(), std::numeric_limits<Real>::max());
         found_.resize(groups_.size());
         for (int i = 0; i < input.iterations; ++i) {
             renewBiases(input, i);
@@ -127,8 +130,9 @@ class BlockGaussSeidel final : public Solver<S> {
         bool all = true;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             const Real change = changeOf(part);
-            solved_[part] = change < tolerance ||
-                            (tolerance > 0 && mayBeRounding(change) && change < resolution(input, part));
+            solved_[part] = change < tolerance || (tolerance > 0 && mayBeRounding(change) &&
+                                                   change < resolution(input, part, last_[part]));
+            last_[part] = change;
             all = all && solved_[part] != 0;
         }
         return all;
@@ -140,7 +144,7 @@ class BlockGaussSeidel final : public Solver<S> {
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             if (solved_[part]) continue;
             collectBlocks(input.constraints.blocks, part, std::numeric_limits<std::size_t>::max());
-            if (!hasJoints(input) || rowsBesideEqualities(input) == 0) continue;
+            if (!hasJoints(input) || !kShortensJoints || rowsBesideEqualities(input) == 0) continue;
             const Real change = changeOf(part);
             if (change > kStalled * before_[part]) solved_[part] = stalled_[part] = 1;
             before_[part] = change;
@@ -159,15 +163,24 @@ class BlockGaussSeidel final : public Solver<S> {
         return change < Real(32e3) * std::numeric_limits<Real>::epsilon();
     }
 
-    /// Rounding of the velocities of a part; 0 where it has joints, whose biases are not settled by then.
-    Real resolution(const SolverInput<S>& input, std::size_t part) const {
+    /// Residual below which rounding has been reached in a part. Biases of joints are renewed from positions, whose
+    /// rounding a solver does not know. A part of joints alone is solved at once in each sweep: what is left is rounding
+    /// where a sweep no longer halves the residual `before` it. With contacts beside the joints, rounding of velocities
+    /// counts from there on. Closed loops of joints get as near as they can.
+    Real resolution(const SolverInput<S>& input, std::size_t part, Real before) const {
+        const std::span<const std::uint32_t> units = parts_.units(part);
+        const bool settled = looped_[part] == 0 && changeOf(part) > Real(0.5) * before;
+        const auto isOfJoints = [&](std::uint32_t unit) {
+            return isJoint(input.constraints.blocks[groups_[unit]]);
+        };
+        if (!settled && std::any_of(units.begin(), units.end(), isOfJoints)) return 0;
+        if (settled && units.size() == 1 && isOfJoints(units.front()))
+            return std::numeric_limits<Real>::max();
         Real largest = 0;
-        for (const std::uint32_t group : parts_.units(part))
-            for (std::uint32_t k = groups_[group]; k < groups_[group + 1]; ++k) {
-                const Block<S>& block = input.constraints.blocks[k];
-                if (isJoint(block)) return 0;
-                largest = std::max(largest, blockResolution<S>(input.constraints, block, input.velocities));
-            }
+        for (const std::uint32_t group : units)
+            for (std::uint32_t k = groups_[group]; k < groups_[group + 1]; ++k)
+                largest = std::max(largest, blockResolution<S>(input.constraints, input.constraints.blocks[k],
+                                                               input.velocities));
         return largest;
     }
 
@@ -196,7 +209,7 @@ class BlockGaussSeidel final : public Solver<S> {
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             if (solved_[part] || !collectBlocks(input.constraints.blocks, part, kFinishRows)) continue;
             const std::size_t rows = rowsBesideEqualities(input);
-            if (rows == 0 || rows > kEarlyRows) continue;
+            if (rows == 0 || rows > kEarlyRows || (!kShortensJoints && hasJoints(input))) continue;
             input.monitor.before(input.velocities, blocks_);
             const Residual left = residualOf(input);
             if (left.found > left.goal) {
@@ -279,6 +292,15 @@ class BlockGaussSeidel final : public Solver<S> {
         groups_.push_back(static_cast<std::uint32_t>(blocks.size()));
     }
 
+    void findLoops(const SolverInput<S>& input) {
+        looped_.assign(parts_.count(), 0);
+        std::size_t group = 0;
+        loops_.find<S>(input.constraints.blocks, input.velocities.size(), [&](std::size_t block) {
+            while (groups_[group + 1] <= block) ++group;
+            looped_[parts_.partOf(group)] = 1;
+        });
+    }
+
     void orderGroups(const SolverInput<S>& input) {
         constexpr std::size_t kGrain = 8;  // a group takes some 2 us, handing out a part 0.3 us
         sweeps_.begin(*tasks_, input.velocities.size(), kGrain);
@@ -323,6 +345,9 @@ class BlockGaussSeidel final : public Solver<S> {
         return largest;
     }
 
+    /// Sweeps over joints and contacts may end early. In single precision heaps of ragdolls then do not come to rest: single
+    /// limbs jump by metres a second.
+    static constexpr bool kShortensJoints = sizeof(Real) > sizeof(float);
     static constexpr int kPlainSweeps =
         2;  ///< before conjugate gradients: most parts of scenes at rest need no more
     static constexpr int kEarlyIterations = 6;  ///< sweeps before Newton's method takes the smallest parts,
@@ -347,6 +372,9 @@ class BlockGaussSeidel final : public Solver<S> {
     std::vector<std::uint8_t> solved_;   ///< flag of each part
     std::vector<std::uint8_t> stalled_;  ///< parts that count as solved without being it
     std::vector<Real> before_;           ///< residual of each part kStallIterations ago
+    std::vector<Real> last_;             ///< residual of each part before its last sweep
+    JointLoops loops_;
+    std::vector<std::uint8_t> looped_;   ///< parts with closed loops of joints
     std::vector<Real> found_;            ///< residual of each group before its last solve
     std::vector<std::uint32_t> blocks_;  ///< blocks of a part
     PartProblem<S> problem_;
