@@ -56,6 +56,9 @@ export class BodyLayer {
   readonly #local: Float64Array; // pose of every shape in its body
   readonly #scale: Float32Array;
   readonly #flat: boolean;
+  #outlines = false;
+  #mayLackEdges = false; // seen by its faces
+  #edged = true;
 
   /** `skip`: bodies that another layer draws; `glass`: those that are seen through. */
   constructor(
@@ -193,18 +196,32 @@ export class BodyLayer {
     const { ghost, faces, behind } = look;
     const coloured = ghost || !faces;
     inkColour.set(coloured ? '#ffffff' : look.ink);
+    this.#outlines = look.outlines;
+    this.#mayLackEdges = !coloured;
     for (const batch of this.#batches) {
       const line = batch.edges.material;
       line.color.copy(inkColour);
       line.own = coloured;
       line.cover = behind ? 0.9 : coloured ? 0.95 : look.dark ? 0.75 : 0.6;
       line.depthTest = !this.#flat && !behind; // a reference inside of its body is still seen
-      batch.edges.visible = look.outlines || batch.faces === null; // chains have nothing else
       if (!batch.faces) continue;
       batch.faces.visible = faces;
       batch.faces.material.sky = look.dark ? 1 : 1.35;
       if (!batch.glass) this.#lookOf(batch.faces.material, look);
     }
+    this.#showEdges();
+  }
+
+  /** False: bodies that are seen by their faces have no edges, which in software take longer to draw than the faces. */
+  set edged(on: boolean) {
+    if (on === this.#edged) return;
+    this.#edged = on;
+    this.#showEdges();
+  }
+
+  #showEdges(): void {
+    const shown = this.#outlines && (this.#edged || !this.#mayLackEdges);
+    for (const { edges, faces } of this.#batches) edges.visible = shown || faces === null; // chains have nothing else
   }
 
   #lookOf(surface: TintMaterial, { ghost, behind }: BodyLook): void {

@@ -99,6 +99,11 @@ export class SourceLayer {
     this.#ground.inLines = on;
   }
 
+  /** False: bodies without their edges, where they are seen by their faces. */
+  set edged(on: boolean) {
+    this.bodies.edged = on;
+  }
+
   /** Whether the frame of a time is the one that is shown. */
   isAt(time: number): boolean {
     const { times } = this.source;

@@ -35,6 +35,7 @@ export class NoWebGL extends Error {}
 const idle: WebGLRenderer[] = [];
 
 const stillAfter = 1200; // [ms] since the last drawing
+const mostEdged = 120; // bodies of all pictures that have edges while they move, where the browser draws in software
 const pixelRatio = () => (drawsInSoftware() ? 1 : Math.min(2, devicePixelRatio));
 
 function takeRenderer(): WebGLRenderer {
@@ -404,6 +405,7 @@ export class ReplayView {
     this.#renderer.info.reset();
     let own = 0;
     this.#clearAll();
+    const moves = !fine && drawsInSoftware();
     const alone = this.findingNotes !== null; // nothing else stands at the place of a finding
     for (const { panel, layers } of this.#pictures) {
       this.#rig.shape(panel.rect);
@@ -412,7 +414,8 @@ export class ReplayView {
       this.#renderer.setScissor(x, this.#height - y - height, width, height);
       for (const layer of layers) {
         if (layer.source.ghost && alone) continue;
-        layer.groundInLines = !fine && drawsInSoftware();
+        layer.groundInLines = moves;
+        layer.edged = !moves || this.#scene.bodies.length * this.#pictures.length <= mostEdged;
         const before = performance.now();
         if (layer.seek(this.#time) || this.#stale) layer.paint(this.options, this.#theme, this.#scales, this.#marked);
         own += performance.now() - before;

@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Matrix4, PerspectiveCamera, Raycaster, Vector2, Vector3 } from 'three';
+import { Color, Matrix4, PerspectiveCamera, Raycaster, Vector2, Vector3 } from 'three';
 import { Observable } from '../../src/common/cursor.ts';
 import { BodyLayer } from '../../src/replay/body_layer.ts';
 import { distinguishable, lightTheme } from '../../src/replay/colours.ts';
@@ -181,6 +181,28 @@ test('shapes of all kinds are two meshes, what is seen through two more, and cha
   assert.equal(layer.drawn.length, 12);
   for (const { body, matrix } of layer.drawn)
     assert.deepEqual(matrix.slice(12, 15), [3 * body, 3 * body + 1, 3 * body + 2]);
+});
+
+test('bodies that are seen by their faces can do without edges', () => {
+  const layer = new BodyLayer(twoBodies, new TemplateCache());
+  const look = { faces: true, outlines: true, ghost: false, behind: false, ink: '#000000', dark: false };
+  const edges = () => layer.group.children.filter(({ type }) => type === 'LineSegments').map(({ visible }) => visible);
+  layer.look(look, new Color());
+  assert.deepEqual(edges(), [true]);
+  layer.edged = false;
+  assert.deepEqual(edges(), [false]);
+  layer.look(look, new Color());
+  assert.deepEqual(edges(), [false], 'a frame later as well');
+  for (const outlined of [
+    { ...look, ghost: true },
+    { ...look, faces: false },
+  ]) {
+    layer.look(outlined, new Color());
+    assert.deepEqual(edges(), [true], 'nothing else shows where they are');
+  }
+  layer.look(look, new Color());
+  layer.edged = true;
+  assert.deepEqual(edges(), [true]);
 });
 
 const source = (spec: string, times: number[], events: ReplayEvent[] = [], positions?: number[][]): FrameSource => ({
