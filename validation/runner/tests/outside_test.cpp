@@ -14,6 +14,7 @@
 #include <iterator>
 #include <thread>
 
+#include "adapters/interface/registry.hpp"
 #include "validation/results/files.hpp"
 #include "validation/results/store.hpp"
 #include "validation/runner/process_pool.hpp"
@@ -72,6 +73,13 @@ class Killer {
     std::thread thread_;
 };
 
+/// Makes modules newer, so that what is known of their engines no longer counts.
+void renewModules() {
+    for (const char* name : {"double_free_flight", "double_nan"})
+        std::filesystem::last_write_time(adapter::moduleFor(adapter::parseSpec(name)),
+                                         std::filesystem::file_time_type::clock::now());
+}
+
 class Outside : public fixtures::RunnerTest {
   protected:
     std::vector<CasePlan> cases_ = {};
@@ -114,6 +122,7 @@ TEST_F(Outside, AChildThatIsKilledOnceIsRunAgain) {
         for (const int signal : {SIGKILL, SIGTERM}) {
             SCOPED_TRACE(std::string(kind) + " " + std::to_string(signal));
             const std::string folder = kind + std::to_string(signal);
+            renewModules();
             Killer killer(kind, 2, signal);
             const auto disturbed = run(cases_, audited(folder));
             EXPECT_GT(killer.stop(), 0);
@@ -155,6 +164,7 @@ TEST_F(Outside, ServersThatAreKilledEveryTimeAreDoneWithout) {
 TEST_F(Outside, AnEngineThatCannotBeDescribedForKillingStopsTheRun) {
     const RunOptions o = audited("describe");
     std::string message;
+    renewModules();
     {
         Killer killer("__describe", 1000);
         message = stop(o);
