@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "engine/constraints/row.hpp"
 #include "engine/core/disjoint_sets.hpp"

@@ -130,8 +130,9 @@ class BlockGaussSeidel final : public Solver<S> {
         bool all = true;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             const Real change = changeOf(part);
-            solved_[part] = change < tolerance || (tolerance > 0 && mayBeRounding(change) &&
-                                                   change < resolution(input, part, last_[part]));
+            solved_[part] =
+                change < tolerance || (tolerance > 0 && mayBeRounding(change) &&
+                                       change < resolution(input, part, change > Real(0.5) * last_[part]));
             last_[part] = change;
             all = all && solved_[part] != 0;
         }
@@ -141,10 +142,11 @@ class BlockGaussSeidel final : public Solver<S> {
     /// Sweeps end, too, over parts with joints that they hardly bring nearer. Friction that sticks may have to grow
     /// until it slides, where joints and contacts require what cannot both be: sweeps take thousands for that.
     void giveUpStalled(const SolverInput<S>& input) {
+        if (!kShortensJoints) return;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             if (solved_[part]) continue;
             collectBlocks(input.constraints.blocks, part, std::numeric_limits<std::size_t>::max());
-            if (!hasJoints(input) || !kShortensJoints || rowsBesideEqualities(input) == 0) continue;
+            if (!hasJoints(input) || rowsBesideEqualities(input) == 0) continue;
             const Real change = changeOf(part);
             if (change > kStalled * before_[part]) solved_[part] = stalled_[part] = 1;
             before_[part] = change;
@@ -165,11 +167,11 @@ class BlockGaussSeidel final : public Solver<S> {
 
     /// Residual below which rounding has been reached in a part. Biases of joints are renewed from positions, whose
     /// rounding a solver does not know. A part of joints alone is solved at once in each sweep: what is left is rounding
-    /// where a sweep no longer halves the residual `before` it. With contacts beside the joints, rounding of velocities
+    /// where sweeps no longer halve it (`settled`). With contacts beside the joints, rounding of velocities
     /// counts from there on. Closed loops of joints get as near as they can.
-    Real resolution(const SolverInput<S>& input, std::size_t part, Real before) const {
+    Real resolution(const SolverInput<S>& input, std::size_t part, bool settled) const {
         const std::span<const std::uint32_t> units = parts_.units(part);
-        const bool settled = looped_[part] == 0 && changeOf(part) > Real(0.5) * before;
+        settled = settled && looped_[part] == 0;
         const auto isOfJoints = [&](std::uint32_t unit) {
             return isJoint(input.constraints.blocks[groups_[unit]]);
         };
