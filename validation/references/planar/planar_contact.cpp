@@ -58,7 +58,7 @@ class PlanarPart {
                                   impacts_[k].time,
                                   {},
                                   0.0,
-                                  [this, k](const Trajectory& run) { return crossingTime(run, k); }});
+                                  [this, k](const Trajectory& run) { return impactTime(run, k); }});
                 if (k + 1 < impacts_.size() && isRocking(k + 1)) addPeak(result, k);
             }
         }
@@ -105,21 +105,37 @@ class PlanarPart {
                slope;
     }
 
-    /// Time at which the body turns through the angle of the impact.
-    std::optional<double> crossingTime(const Trajectory& run, std::size_t k) const {
+    /// Time at which the body turns through the angle of the impact. A body that lands on a side and rests a hair above
+    /// the floor never does: it has landed where it is within kShort of it, and would arrive at the exact rate.
+    std::optional<double> impactTime(const Trajectory& run, std::size_t k) const {
+        const std::optional<std::size_t> from = frameBefore(run, k);
+        if (!from) return std::nullopt;
+        if (const auto time = crossingTime(run, *from, k, 0.0)) return time;
+        constexpr double kShort = 1e-3;  // [rad]
+        const auto time = crossingTime(run, *from, k, kShort);
+        if (!time) return std::nullopt;
+        return *time + kShort / std::abs(d(impacts_[k].before.rate));
+    }
+
+    /// The frame from which on impact k is looked for: past the peak after the impact before, where the exact motion has
+    /// turned half way back.
+    std::optional<std::size_t> frameBefore(const Trajectory& run, std::size_t k) const {
+        std::optional<std::size_t> from = 0;
+        for (std::size_t i = 0; i < k && from; ++i)
+            from = lastFrameBefore(run, impacts_[i].time + 0.5 * (impacts_[i + 1].time - impacts_[i].time));
+        return from;
+    }
+
+    /// Time at which the body turns through the angle of the impact less `before` [rad].
+    std::optional<double> crossingTime(const Trajectory& run, std::size_t from, std::size_t k,
+                                       double before) const {
         const Event& event = impacts_[k];
         const double sign = event.before.rate > 0 ? 1.0 : -1.0, angle = d(event.before.angle);
-        std::size_t from = 0;
-        for (std::size_t i = 0; i < k; ++i) {
-            // Past the peak after the impact before: where the exact motion has turned half way back.
-            const double halfway = impacts_[i].time + 0.5 * (impacts_[i + 1].time - impacts_[i].time);
-            const auto frame = lastFrameBefore(run, halfway);
-            if (!frame) return std::nullopt;
-            from = *frame;
-        }
         return upwardCrossing(
             run, from,
-            [&](std::size_t f) { return sign * (d(frame_.read(run.state(f, body_)).angle) - angle); },
+            [&](std::size_t f) {
+                return sign * (d(frame_.read(run.state(f, body_)).angle) - angle) + before;
+            },
             [&](std::size_t f) { return sign * d(frame_.read(run.state(f, body_)).rate); });
     }
 

@@ -177,6 +177,31 @@ Scenario cornerHit(const PlanarHit& h) {
     return s;
 }
 
+TEST(PlanarContact, RodThatRestsAHairAboveTheFloorHasLanded) {
+    Scenario s = onFloor(0.9, 0, 0);
+    addRod(s, 0.5, 0.1);
+    const auto r = makeReference(s);
+    const double landing = quantity(*r, "impact_time_1");
+    const double rate = norm(*r->exact(1, landing - 1e-9).angularVelocity);
+    const auto measured = [&](double restsShort) {
+        Trajectory run = exactRun(s, *r, 0.001, 900);
+        for (std::size_t k = 0; k < run.times.size(); ++k) {
+            auto& state = run.states[k * run.bodyCount + 1];
+            const double last = landing - restsShort / rate;
+            if (run.times[k] <= last) continue;
+            state.orientation = *r->exact(1, last).orientation;
+            state.angularVelocity = {};
+        }
+        return findQuantity(r->quantities(0.001, Scheme::Unknown), "impact_time_1")->measure(run);
+    };
+    for (const double restsShort : {1e-7, 1e-5, 5e-4}) {
+        const auto time = measured(restsShort);
+        ASSERT_TRUE(time.has_value()) << restsShort;
+        EXPECT_NEAR(*time, landing, 5e-4) << restsShort;
+    }
+    EXPECT_FALSE(measured(0.01).has_value());
+}
+
 TEST(PlanarContact, CornerImpactsOfTheCatalogue) {
     const PlanarHit hits[] = {
         {0.1, 0.2, -0.4, 1, -2, 0.2, 0.5, 0.5161290323, 0.4193548387, 2.903225806},
