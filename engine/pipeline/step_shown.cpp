@@ -37,6 +37,10 @@ void Step<S>::showContacts() {
     const Real laterOfLarge = algorithms_.large ? Real(1) - halfOf(IslandSize::Large) / state_.size : Real(0);
     tasks_.forEach(contacts.size(), kBodyGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts[k];
+        if (contact.asleep) {  // shown where it fell asleep
+            contact.placed = false;
+            return;
+        }
         if (contact.islands == IslandSize::Large) {
             RowLags<S> lags{};
             const typename S::Vec turn = contact.manifold.normal - contact.lastNormal;
