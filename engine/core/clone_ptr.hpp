@@ -23,6 +23,7 @@ class ClonePtr {
     }
     T& operator*() const { return *object_; }
     T* operator->() const { return object_.get(); }
+    explicit operator bool() const { return object_ != nullptr; }
 
   private:
     std::unique_ptr<T> object_;

@@ -69,6 +69,27 @@ void Motion<S>::coast(BodyArrays<S>& bodies, std::size_t i, Real time) const {
 }
 
 template <class S>
+void Motion<S>::flyToMidpoint(BodyArrays<S>& bodies, std::span<const std::uint8_t> flies, Real half) {
+    const std::size_t n = bodies.size();
+    startRotations_.resize(n);
+    kicked_.resize(n);
+    predicted_.resize(n);
+    used_.assign(n, {});
+    kickedInBlocks_ = false;
+    for (std::size_t i = 0; i < n; ++i) {
+        Pose<S>& X = bodies.pose[i];
+        Velocity<S>& velocity = bodies.velocity[i];
+        startRotations_[i] = X.q;
+        kicked_[i] = predicted_[i] = velocity.w;
+        if (!flies[i]) continue;
+        if (bodies.invMass[i] > 0)
+            velocity.w = predicted_[i] = rotation_.predict(bodies.constants[i], X.q, velocity.w, half);
+        used_[i] = velocity;
+        carry(X, velocity, half);
+    }
+}
+
+template <class S>
 void Motion<S>::toEnd(BodyArrays<S>& bodies, IslandSize islands, std::span<const Velocity<S>> way, Real half,
                       const Tasks& tasks) {
     Midpoints<S>& midpoints = bodies.midpoints;

@@ -42,6 +42,9 @@ class Motion {
     /// not known.
     bool toMidpoint(BodyArrays<S>& bodies, const PerIslandSize<Real>& half, bool same,
                     const Tasks& tasks = Tasks::one());
+    /// The way of the flagged bodies to midpoints `half` [s] on, as the move of a (sub-)step without forces: for
+    /// continuous collision, which may change it until finish(). Other bodies stay where they are.
+    void flyToMidpoint(BodyArrays<S>& bodies, std::span<const std::uint8_t> flies, Real half);
     /// Moves a body by `time` [s], which may be negative, as free motion does without forces.
     void coast(BodyArrays<S>& bodies, std::size_t i, Real time) const;
     /// Takes the poses and velocities of the bodies of islands of one size for their next midpoints and moves

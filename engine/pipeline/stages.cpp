@@ -257,10 +257,12 @@ void Step<S>::move() {
 template <class S>
 void Step<S>::resolveImpacts() {
     const Real h = state_.substepSize;
-    const bool inTime = algorithms_.ccd->resolve(
-        {bodies_, contacts_, motion_, *algorithms_.narrowPhase, algorithms_.friction,
-         def_.restitutionThreshold, h, static_cast<Real>(state_.substep) * h, pausedBodies()},
-        state_.impacts);
+    const Real begin =
+        static_cast<Real>(state_.substep) * h + (motion_.isAtMidpoint() ? Real(0.5) * h : Real(0));
+    const bool inTime =
+        algorithms_.ccd->resolve({bodies_, contacts_, motion_, *algorithms_.narrowPhase, algorithms_.friction,
+                                  def_.restitutionThreshold, h, begin, pausedBodies()},
+                                 state_.impacts);
     result_.impactsCut = result_.impactsCut || !inTime;
 }
 

@@ -131,6 +131,7 @@ class Step {
     // --- data shared by them
     // step_midpoints.cpp
     void toMidpoints();
+    bool moveToMidpoints(bool same);
     Real halfOf(IslandSize islands) const;
     void measureLead(std::size_t body);
     void changeHalves(std::span<const IslandSize> before);

@@ -106,6 +106,11 @@ StepAlgorithms<S>::StepAlgorithms(const WorldDef<S>& def) {
     ccd =
         findAlgorithm(continuousCollisionTable<S>(), "continuous_collision", def.continuousCollision).make();
     continuous = continuousCollisionTraits(def.continuousCollision).acts;
+    // Contacts that are found ahead act from the midpoints on: on the way there bodies collide by their times of impact.
+    if (continuous && usual.motion.isAtMidpoint())
+        ccdToMidpoints =
+            findAlgorithm(continuousCollisionTable<S>(), "continuous_collision", "conservative_advancement")
+                .make();
     sleeping = findAlgorithm(sleepingTable<S>(), "sleeping", def.sleeping).make();
     restitution = findAlgorithm(restitutionTable<S>(), "restitution", def.restitution).make();
     combineFriction = findAlgorithm(combineTable<Real>(), "friction_combine", def.frictionCombine).make;

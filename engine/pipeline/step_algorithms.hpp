@@ -44,6 +44,8 @@ struct StepAlgorithms {
     ClonePtr<Restitution<S>> restitution;
     ClonePtr<PositionCorrection<S>> correction;
     ClonePtr<ContinuousCollision<S>> ccd;
+    ClonePtr<ContinuousCollision<S>>
+        ccdToMidpoints;  ///< on the way to midpoints that are found anew, or null
     SleepingScheme<S> sleeping;
     bool continuous = false;          ///< `ccd` acts
     bool locatesImpacts = false;      ///< impacts of bodies in flight take place at their own times (ccd)

@@ -60,15 +60,35 @@ void Step<S>::toMidpoints() {
     contacts_.beginWays(bodies_, tasks_);
     state_.leads.resize(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i) state_.leads[i].start = bodies_.pose[i];
-    const PerIslandSize<Real> half{halfOf(IslandSize::Usual),
-                                   algorithms_.large ? halfOf(IslandSize::Large) : Real(0)};
     const bool same = world_.clock.lastSubstepSize == h;
     findRenewed(same);
-    if (motion_.toMidpoint(bodies_, half, same, tasks_)) {
+    if (moveToMidpoints(same)) {
         contacts_.keepSides(bodies_, tasks_);
         putJointsRight();
     }
     tasks_.forEach(bodies_.size(), kBodyGrain, [this](std::size_t i) { measureLead(i); });
+}
+
+/// True: midpoints were found anew. With continuous collision bodies collide on the way there.
+template <class S>
+bool Step<S>::moveToMidpoints(bool same) {
+    const Real half = halfOf(IslandSize::Usual);
+    const Real ofLarge = algorithms_.large ? halfOf(IslandSize::Large) : Real(0);
+    if (!algorithms_.ccdToMidpoints) return motion_.toMidpoint(bodies_, {half, ofLarge}, same, tasks_);
+    if (!motion_.toMidpoint(bodies_, {Real(0), Real(0)}, same, tasks_)) return false;
+    ContinuousCollision<S>& ccd = *algorithms_.ccdToMidpoints;
+    ccd.remember(bodies_);
+    motion_.flyToMidpoint(bodies_, state_.renewed, half);
+    ccd.rememberKick(bodies_);
+    const bool inTime = ccd.resolve({bodies_, contacts_, motion_, *algorithms_.narrowPhase,
+                                     algorithms_.friction, def_.restitutionThreshold, half, Real(0)},
+                                    state_.impacts);
+    result_.impactsCut = result_.impactsCut || !inTime;
+    motion_.finish(bodies_, half, tasks_);
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+        if (state_.renewed[i] && bodies_.islands[i] == IslandSize::Large)
+            motion_.coast(bodies_, i, ofLarge - half);
+    return true;
 }
 
 template <class S>
