@@ -56,7 +56,7 @@ TYPED_TEST(PreSolveCall, MakesAOneWayPlatform) {
     // Whatever solves and finds its contacts.
     for (const char* solver : {"block", "pgs", "tgs_soft", "wide", "nsgs"})
         for (const char* ccd : {"none", "conservative_advancement", "speculative"}) {
-            WorldDef<S> def = earth<S>();
+            WorldDef<S> def = earthByEuler<S>();
             def.solver = solver;
             def.continuousCollision = ccd;
             World<S> world(def);
@@ -80,7 +80,7 @@ TYPED_TEST(PreSolveCall, LetsABodyThroughASurface) {
     using S = TypeParam;
     using R = typename S::Real;
     for (const bool refuses : {true, false}) {
-        World<S> world(earth<S>());
+        World<S> world(earthByEuler<S>());
         BodyDef<S> fixed;
         fixed.type = BodyType::Static;
         const BodyId floor = world.addBody(fixed);

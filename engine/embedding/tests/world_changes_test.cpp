@@ -38,7 +38,7 @@ struct Tower {
         step(120);
     }
     static WorldDef<S> defOf(bool sleeps) {
-        WorldDef<S> def = earth<S>();
+        WorldDef<S> def = earthByEuler<S>();
         if (sleeps) def.sleeping = "islands";
         return def;
     }

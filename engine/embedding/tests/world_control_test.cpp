@@ -45,7 +45,7 @@ struct Stack {
 
 template <class S>
 WorldDef<S> sleepy(bool sleeps) {
-    WorldDef<S> def = earth<S>();
+    WorldDef<S> def = earthByEuler<S>();
     if (sleeps) def.sleeping = "islands";
     return def;
 }

@@ -36,7 +36,7 @@ class Faults : public testing::Test {
     /// A cube at rest on the ground.
     static World<S> cubeOnGround(const std::string& fault, const std::string& correction = "none",
                                  double friction = 0.5, double restitution = 0.5) {
-        WorldDef<S> def = earth<S>();
+        WorldDef<S> def = earthByEuler<S>();
         def.fault = fault;
         def.positionCorrection = correction;
         World<S> world(def);
@@ -62,7 +62,7 @@ TYPED_TEST(Faults, WithoutAFaultTheCubeRests) {
 }
 
 TYPED_TEST(Faults, UnknownNamesAreRefused) {
-    WorldDef<TypeParam> def;
+    WorldDef<TypeParam> def = euler<TypeParam>();
     def.fault = "bad_luck";
     EXPECT_THROW(World<TypeParam>{def}, EngineError);
 }
@@ -72,7 +72,7 @@ TYPED_TEST(Faults, EachIsVisibleAndDeterministic) {
     using S = TypeParam;
     using R = typename S::Real;
     const auto scene = [](const std::string& fault) {
-        WorldDef<S> def = earth<S>();
+        WorldDef<S> def = earthByEuler<S>();
         def.fault = fault;
         World<S> world(def);
         const auto material = world.addMaterial(R(0.5), R(0.5));
@@ -108,7 +108,7 @@ TYPED_TEST(Faults, NoCheapRejectionOnlyCosts) {
     std::uint64_t hash[2] = {};
     std::size_t pairs[2] = {};
     for (const int bad : {0, 1}) {
-        WorldDef<S> def = earth<S>();
+        WorldDef<S> def = earthByEuler<S>();
         def.fault = bad != 0 ? "no_cheap_rejection" : "none";
         World<S> world(def);
         const auto material = world.addMaterial(R(0.5), 0);
@@ -200,7 +200,7 @@ TYPED_TEST(Faults, NormalFlickerShakes) {
 TYPED_TEST(Faults, UnguardedDivisionOfCoincidentBalls) {
     using R = typename TypeParam::Real;
     for (const char* fault : {"none", "unguarded_division"}) {
-        WorldDef<TypeParam> def;
+        WorldDef<TypeParam> def = euler<TypeParam>();
         def.fault = fault;
         World<TypeParam> world(def);
         const auto material = world.addMaterial(0, 0);
@@ -216,7 +216,7 @@ TYPED_TEST(Faults, UnguardedDivisionOfCoincidentBalls) {
 TYPED_TEST(Faults, UnnormalisedQuaternionGrows) {
     using S = TypeParam;
     using R = typename S::Real;
-    WorldDef<S> def;
+    WorldDef<S> def = euler<S>();
     def.fault = "unnormalised_quaternion";
     def.rotation = "none";
     World<S> world(def);

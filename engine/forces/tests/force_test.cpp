@@ -59,7 +59,7 @@ TYPED_TEST(Forces, AForceWithABeginningAndAnEndGivesItsImpulseInEveryIntegrator)
 TYPED_TEST(Forces, SpringAgainstAHandComputation) {
     using S = TypeParam;
     using R = typename S::Real;
-    World<S> world{WorldDef<S>{}};
+    World<S> world{euler<S>()};
     const BodyId a = addFree<S>(world, 0, 0);
     BodyDef<S> def;
     def.mass = 1;

@@ -19,7 +19,7 @@ constexpr double kOnePass = 7e-3;
 
 template <class S>
 WorldDef<S> lookingAhead(bool fast, double motion) {
-    WorldDef<S> def = earth<S>();
+    WorldDef<S> def = earthByEuler<S>();
     if (fast) preferSpeed(def);
     def.speculativeMotion = static_cast<typename S::Real>(motion);
     return def;

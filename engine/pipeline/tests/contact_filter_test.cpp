@@ -103,7 +103,7 @@ TYPED_TEST(ContactFilters, OneFallsThroughWhatCarriesTheOther) {
     const std::vector<Shape<S>> floors{Shape<S>(HalfSpace<S>{S::Vec::Unit(1), R(0)}), thinFloor<S>()};
     for (const Shape<S>& floor : floors)
         for (const char* ccd : {"none", "speculative", "conservative_advancement"}) {
-            WorldDef<S> def = earth<S>();
+            WorldDef<S> def = earthByEuler<S>();
             def.continuousCollision = ccd;
             World<S> world(def);
             addFloor<S>(world, floor);
@@ -169,7 +169,7 @@ TYPED_TEST(ContactFilters, AChangeWakesAndEndsContacts) {
     using S = TypeParam;
     using R = typename S::Real;
     for (const bool sleeps : {false, true}) {
-        WorldDef<S> def = earth<S>();
+        WorldDef<S> def = earthByEuler<S>();
         if (sleeps) def.sleeping = "islands";
         World<S> world(def);
         const BodyId floor = addFloor<S>(world, HalfSpace<S>{S::Vec::Unit(1), R(0)});

@@ -20,7 +20,7 @@ TYPED_TEST(Contacts, ReboundIsExactlyTheCoefficientTimesTheApproach) {
     using S = TypeParam;
     using R = typename S::Real;
     for (const double e : {1.0, 0.7, 0.5, 0.0}) {
-        WorldDef<S> def = earth<S>();
+        WorldDef<S> def = earthByEuler<S>();
         def.speculativeMotion = 0;  // the ball touches when its approach ends, whatever e
         World<S> world(def);
         const std::uint32_t m = world.addMaterial(R(0.3), static_cast<R>(e));
@@ -113,7 +113,7 @@ TYPED_TEST(Contacts, SlidingBoxStopsWhereTheSchemeStopsIt) {
     using S = TypeParam;
     using R = typename S::Real;
     for (const double h : {1.0 / 60, 1.0 / 240}) {
-        World<S> world(earth<S>());
+        World<S> world(earthByEuler<S>());
         const std::uint32_t m = world.addMaterial(R(0.5), 0);
         addGround<S>(world, m);
         const BodyId box = addCube<S>(world, 0, 0.25, 0.25, 2, m, 4);

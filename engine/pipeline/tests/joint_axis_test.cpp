@@ -69,7 +69,7 @@ TYPED_TEST(JointAxes, MotorAcceleratesByItsTorqueAndHoldsItsSpeed) {
     JointDef<S> def = hinge<S>();
     def.axes[0].motorSpeed = 10;
     def.axes[0].motorMaxForce = R(0.8);
-    OneBody<S> one(WorldDef<S>{}, def);
+    OneBody<S> one(euler<S>(), def);
     const double h = 1.0 / 100, a = 0.8 / 0.5;
     for (int i = 1; i <= 800; ++i) {
         one.world.step(static_cast<R>(h));
@@ -231,7 +231,7 @@ TYPED_TEST(JointAxes, SpringsAreTheImplicitOscillatorOfTheirFrequencyAndDamping)
             const double h = k == 0 ? 1.0 / 200 : 1.0 / 800;
             if (type == JointType::Distance) {
                 // The anchor moves along x from the origin: the target is a length.
-                OneBody<S> one(WorldDef<S>{}, def, startX);
+                OneBody<S> one(euler<S>(), def, startX);
                 one.world.setJointTarget(one.joint, 0, R(1.7));
                 const double w = 2 * kPi * 1.5, zeta = 0.2, wd = w * std::sqrt(1 - zeta * zeta);
                 double x = 0.3, v = 0;
@@ -267,7 +267,7 @@ TYPED_TEST(JointAxes, ASpringsFrequencyIsThatOfWhatTheJointLetsMove) {
     double errors[2] = {};
     for (int k = 0; k < 2; ++k) {
         const double h = k == 0 ? 1.0 / 200 : 1.0 / 800;
-        OneBody<S> one(WorldDef<S>{}, def, 0.9);
+        OneBody<S> one(euler<S>(), def, 0.9);
         for (int i = 1; i * h < 2; ++i) {
             one.world.step(static_cast<R>(h));
             const double t = i * h, exact = -0.3 * std::exp(-zeta * w * t) *
@@ -346,7 +346,7 @@ TYPED_TEST(JointAxes, RopeIsSlackThenTaut) {
     def.length = 1;
     def.axes[0].mode = AxisMode::Limited;
     def.axes[0].upper = 1;
-    OneBody<S> one(earth<S>(), def, 0.5, 0, 0, 1);
+    OneBody<S> one(earthByEuler<S>(), def, 0.5, 0, 0, 1);
     const double h = 1.0 / 240;
     double y = 0, v = 1;
     int i = 0;

@@ -110,7 +110,7 @@ TYPED_TEST(Joints, EveryJointConservesMomentumAndHolds) {
     using R = typename S::Real;
     for (const JointType type :
          {JointType::Ball, JointType::Hinge, JointType::Slider, JointType::Fixed, JointType::Distance}) {
-        World<S> world{WorldDef<S>{}};
+        World<S> world{euler<S>()};
         BodyId ids[2];
         for (int i = 0; i < 2; ++i) {
             BodyDef<S> body;

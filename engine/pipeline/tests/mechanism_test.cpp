@@ -24,7 +24,7 @@ TYPED_TEST_SUITE(Mechanisms, Spaces);
 template <class S>
 struct Mechanism {
     using R = typename S::Real;
-    World<S> world{earth<S>()};
+    World<S> world{earthByEuler<S>()};
     static Eigen::Vector2d flat(const typename S::Vec& v) { return {double(v[0]), double(v[1])}; }
 
     BodyId rod(const Point& from, const Point& to, double mass) {
@@ -201,7 +201,7 @@ TYPED_TEST(Mechanisms, BridgeTakesNoEndlessImpulses) {
 TYPED_TEST(Mechanisms, ChainOfTwentyLinksHoldsForAMinute) {
     using S = TypeParam;
     using R = typename S::Real;
-    World<S> world(earth<S>());
+    World<S> world(earthByEuler<S>());
     std::vector<BodyId> links;
     for (int i = 0; i < 20; ++i) {
         BodyDef<S> body;

@@ -22,7 +22,7 @@ TYPED_TEST(Impacts, LawsAgreeWithoutFrictionAndOffMeansOff) {
     using R = typename S::Real;
     for (const double e : {0.0, 0.5, 1.0}) {
         for (const char* law : {"newton", "poisson", "none"}) {
-            WorldDef<S> def = earth<S>();
+            WorldDef<S> def = earthByEuler<S>();
             def.restitution = law;
             World<S> world(def);
             const std::uint32_t m = world.addMaterial(0, static_cast<R>(e));
@@ -40,7 +40,7 @@ TYPED_TEST(Impacts, LawsAgreeWithoutFrictionAndOffMeansOff) {
         }
         // Two spheres, one dimension.
         for (const char* law : {"newton", "poisson"}) {
-            WorldDef<S> def;
+            WorldDef<S> def = euler<S>();
             def.restitution = law;
             World<S> world(def);
             const std::uint32_t m = world.addMaterial(R(0.4), static_cast<R>(e));

@@ -20,6 +20,19 @@ WorldDef<S> earth() {
     def.gravity[1] = -static_cast<typename S::Real>(kGravity);
     return def;
 }
+/// Settings of tests whose closed forms are those of steps of symplectic Euler.
+template <class S>
+WorldDef<S> euler() {
+    WorldDef<S> def;
+    def.integrator = "symplectic_euler";
+    return def;
+}
+template <class S>
+WorldDef<S> earthByEuler() {
+    WorldDef<S> def = earth<S>();
+    def.integrator = "symplectic_euler";
+    return def;
+}
 /// Member of WorldDef that holds the choice of a family of algorithmFamilies(). Null for faults, which break
 /// the tested code.
 template <class S>

@@ -156,7 +156,7 @@ TYPED_TEST(Sleeping, WokenStackStandsAsIfItHadNeverSlept) {
 TYPED_TEST(Sleeping, AHitWakesTheStackAndKeepsMomentum) {
     using S = TypeParam;
     for (const char* ccd : {"none", "speculative", "conservative_advancement"}) {
-        WorldDef<S> def;  // no gravity, no ground: momentum is conserved
+        WorldDef<S> def = euler<S>();  // no gravity, no ground: momentum is conserved
         def.sleeping = "islands";
         def.continuousCollision = ccd;
         World<S> world(def);
