@@ -114,6 +114,9 @@ class Lowering {
     /// Applies the pose of a frame to an element of it.
     void move(XMLElement& e, const Pose& frame) {
         if (isNamed(e, "camera") || isNamed(e, "light") || frame == Pose{}) return;
+        // The rules refuse these, with a word that leaves them out.
+        for (const char* refused : {"attach", "composite", "flexcomp"})
+            if (isNamed(e, refused)) return;
         const Place place = file_.place(e);
         if (!isNamed(e, "body") && !isNamed(e, "geom") && !isNamed(e, "site"))
             throw Refusal(place, std::string("<") + e.Name() + "> in a frame with a pose is not read");

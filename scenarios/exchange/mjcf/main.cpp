@@ -21,7 +21,7 @@ bool checkWords(XmlFile& file, Report& report, const NewerLibrary& newer) {
         const std::string older = "newer than " + libraryName() + " reads";
         if (!NewerLibrary::maps(element, attribute)) return older;
         needsNewer = true;
-        return newer.isInstalled() ? "" : older + "; MuJoCo 3 of npm does: ./rigor --with guests";
+        return newer.isInstalled() ? "" : older + "; MuJoCo 3 of npm does: " + newer.install();
     });
     for (const char* section : {"actuator", "sensor"})
         if (auto* e = file.root()->FirstChildElement(section); e && e->NoChildren())

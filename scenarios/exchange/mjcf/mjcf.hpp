@@ -55,6 +55,8 @@ class NewerLibrary {
     /// The program beside the reader, or an object that is not installed.
     NewerLibrary();
     bool isInstalled() const { return !program_.empty(); }
+    /// Command that installs it: another one in a package than in the source tree.
+    const std::string& install() const { return install_; }
     /// Whether MuJoCo 3 knows an element or attribute that libmujoco does not, and this reader maps it.
     static bool maps(const std::string& element, const std::string& attribute);
     /// As compile(). Throws Refusal also where the process ends otherwise than with a model.
@@ -62,6 +64,7 @@ class NewerLibrary {
 
   private:
     std::filesystem::path program_;
+    std::string install_ = "./rigor --with guests";
 };
 
 /// A compiled model and the scenario that is being made from it.

@@ -29,18 +29,11 @@ constexpr Word kMapped[] = {{"mesh", "inertia"},     {"mesh", "builtin"},     {"
                             {"mesh", "maxhullvert"}, {"hfield", "elevation"}, {"connect", "site1"},
                             {"connect", "site2"},    {"weld", "site1"},       {"weld", "site2"}};
 
-/// The folder of the guest's program by its manifest beside the modules; "" where its package is not installed.
-fs::path guestFolder() {
-    std::error_code error;
-    const fs::path self = fs::read_symlink("/proc/self/exe", error);
-    const fs::path manifest = self.parent_path() / "../adapters/rigor_adapter_mujoco3.json";
-    std::ifstream in(manifest);
+/// The manifest of the guest beside the modules; null where there is none.
+json guestManifest(const fs::path& file) {
+    std::ifstream in(file);
     const json read = in ? json::parse(in, nullptr, false) : json();
-    if (!read.is_object() || !read.contains("folder")) return {};
-    const fs::path folder = manifest.parent_path() / read["folder"].get<std::string>();
-    for (const json& needed : read.value("needs", json::array()))
-        if (!fs::exists(folder / needed.get<std::string>(), error)) return {};
-    return folder;
+    return read.is_object() && read.contains("folder") ? read : json();
 }
 
 json requestOf(XmlFile& file, int keyframe) {
@@ -118,8 +111,16 @@ CompiledModel modelOf(const json& answer) {
 }  // namespace
 
 NewerLibrary::NewerLibrary() {
-    const fs::path folder = guestFolder();
-    if (!folder.empty()) program_ = folder / "compile.mjs";
+    std::error_code error;
+    const fs::path self = fs::read_symlink("/proc/self/exe", error);
+    const fs::path file = self.parent_path() / "../adapters/rigor_adapter_mujoco3.json";
+    const json manifest = guestManifest(file);
+    if (manifest.is_null()) return;
+    install_ = manifest.value("install", install_);
+    const fs::path folder = file.parent_path() / manifest["folder"].get<std::string>();
+    for (const json& needed : manifest.value("needs", json::array()))
+        if (!fs::exists(folder / needed.get<std::string>(), error)) return;
+    program_ = folder / "compile.mjs";
 }
 
 bool NewerLibrary::maps(const std::string& element, const std::string& attribute) {

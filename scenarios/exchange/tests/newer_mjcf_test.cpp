@@ -189,22 +189,50 @@ TEST_F(NewerMjcf, WithoutNodeTheRefusalSaysSo) {
     EXPECT_THAT(said, HasSubstr("there is no node"));
 }
 
-/// A reader that has no guests beside it, as where they are not installed.
-TEST(NewerMjcfAlone, SaysWhereToGetTheNewerLibrary) {
-    const auto folder = freshFolder("alone");
+/// The word that leaves an element out is named wherever the element stands, in a frame with a pose too.
+TEST(NewerMjcfAlone, NamesTheWordOfAnElementInAFrame) {
+    const auto refusalOf = [](const std::string& name, const std::string& element) {
+        return refusal("mjcf", writeText(freshFolder(name) / (name + ".xml"),
+                                         "<mujoco><worldbody><body><freejoint/><geom size='.1'/></body>\n"
+                                         "<frame pos='0 0 1'>" +
+                                             element + "</frame></worldbody></mujoco>"));
+    };
+    EXPECT_THAT(refusalOf("part", "<attach model='m' body='b' prefix='p'/>"), HasSubstr("--without attach"));
+    EXPECT_THAT(refusalOf("sheet", "<flexcomp name='c' type='grid' count='3 3 1' spacing='.1 .1 .1'/>"),
+                HasSubstr("--without deformables"));
+}
+
+/// Message of a reader that is alone in a folder, with the given manifest beside it.
+std::string saidByAReaderIn(const fs::path& folder, const std::string& manifest) {
     const auto file = writeText(folder / "newer.xml", kNewer);
     fs::create_directories(folder / "readers");
     fs::copy_file(fs::path(RIGOR_BINARY_DIR) / "bin/readers/rigor-read-mjcf", folder / "readers/read");
+    if (!manifest.empty()) {
+        fs::create_directories(folder / "adapters");
+        writeText(folder / "adapters/rigor_adapter_mujoco3.json", manifest);
+    }
     ReadOptions options;
     options.file = file;
     const std::string command = (folder / "readers/read").string() + " '" + toJson(options).dump() + "' " +
                                 (folder / "answer.json").string();
-    ASSERT_EQ(std::system(command.c_str()), 0);
+    if (std::system(command.c_str()) != 0) return "the reader failed";
     std::ifstream in(folder / "answer.json");
     const auto report = Report::fromJson(nlohmann::json::parse(in).at("report"));
     EXPECT_TRUE(report.isRefused());
-    EXPECT_THAT(report.text(), HasSubstr("newer.xml:5"));
-    EXPECT_THAT(report.text(), HasSubstr("MuJoCo 3 of npm does: ./rigor --with guests"));
+    return report.text();
+}
+
+TEST(NewerMjcfAlone, SaysWhereToGetTheNewerLibrary) {
+    const std::string said = saidByAReaderIn(freshFolder("alone"), "");
+    EXPECT_THAT(said, HasSubstr("newer.xml:5"));
+    EXPECT_THAT(said, HasSubstr("MuJoCo 3 of npm does: ./rigor --with guests"));
+}
+
+/// The packages' manifest names another way, because they have no launcher.
+TEST(NewerMjcfAlone, SaysHowAnInstalledGuestGetsItsLibrary) {
+    const std::string said = saidByAReaderIn(
+        freshFolder("packaged"), R"({"folder": "guest", "needs": ["library"], "install": "npm ci, there"})");
+    EXPECT_THAT(said, HasSubstr("MuJoCo 3 of npm does: npm ci, there"));
 }
 
 }  // namespace
