@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "validation/results/seals.hpp"
 #include "validation/results/types.hpp"
 
 namespace rigor::results {
