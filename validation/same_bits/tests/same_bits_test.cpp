@@ -17,6 +17,16 @@ namespace {
 
 using namespace fixtures;
 
+/// The columns of the table.
+constexpr const char* kSpecs[] = {"rigor:precision=f32,preset=default", "rigor:precision=f64,preset=default",
+                                  "rigor:precision=f32,preset=fast", "rigor:precision=f64,preset=fast"};
+
+std::string allSpecs() {
+    std::string text;
+    for (const char* spec : kSpecs) text += (text.empty() ? "" : ",") + std::string(spec);
+    return text;
+}
+
 SameBitsCase caseOf(const std::string& scenario, const std::string& spec, std::size_t steps) {
     const auto loaded = scenario::loadScenario(scenario::findScenario(scenario));
     return {loaded.scenario, adapter::parseSpec(spec), loaded.scenario.timeSteps.front(), steps};
@@ -32,8 +42,7 @@ class SameBits : public RunnerTest {
 
 TEST_F(SameBits, AgainOnTwoThreadsAndRestored) {
     for (const char* name : {"box_stack", "pendulum_chain", "slip_to_roll_2d", "fixed_break"})
-        for (const char* spec : {"rigor:precision=f32,preset=default", "rigor:precision=f64,preset=default",
-                                 "rigor:precision=f32,preset=fast"}) {
+        for (const char* spec : kSpecs) {
             SCOPED_TRACE(std::string(name) + " " + spec);
             const SameBitsCase one = caseOf(name, spec, 90);
             const StateHashes first = statesOf(one);
@@ -71,7 +80,8 @@ TEST_F(SameBits, EnginesWithoutTheMeansAreNotCompared) {
 /// The run of `rigor run`, in this process, and that of `rigor validate`, in a child.
 TEST_F(SameBits, RunAndValidateEndInTheSame) {
     const std::string text = scenario::loadScenario(scenario::findScenario("box_stack")).text;
-    const auto cases = plan({text}, "rigor:precision=f32,preset=default,rigor:precision=f64,preset=default");
+    const auto cases = plan({text}, allSpecs());
+    ASSERT_GE(cases.size(), std::size(kSpecs));
     const auto run = RunnerTest::run(cases, options());
     ASSERT_EQ(run.cases.size(), cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -97,8 +107,7 @@ std::string contentOf(const std::filesystem::path& file) {
 TEST_F(SameBits, EveryInstructionSetGivesThem) {
     const std::string folder = buildFolder(), hashes = scratch_.path() / "hashes",
                       log = scratch_.path() / "log";
-    const std::string program =
-        folder + "/bin/rigor-same-bits --steps 40 --engines rigor:precision=f32,preset=fast";
+    const std::string program = folder + "/bin/rigor-same-bits --steps 40 --engines " + allSpecs();
     ASSERT_EQ(exitCodeOf(program + " --write " + hashes + " box_stack ball_pyramid_stands >" + log), 0)
         << contentOf(log);
     int sets = 0;
@@ -108,7 +117,10 @@ TEST_F(SameBits, EveryInstructionSetGivesThem) {
             program + " --against " + hashes + " box_stack ball_pyramid_stands >" + log + " 2>&1");
         if (code == 9) continue;  // not on this machine, or not in this build
         EXPECT_EQ(code, 0) << set << "\n" << contentOf(log);
-        EXPECT_THAT(contentOf(log), testing::HasSubstr("2 of     2 cases have the same bits")) << set;
+        for (const std::string precision : {"f32", "f64"})
+            EXPECT_THAT(contentOf(log),
+                        testing::HasSubstr(precision + ", against " + hashes + "     4 of     4 cases"))
+                << set;
         ++sets;
     }
     EXPECT_GE(sets, 1);
