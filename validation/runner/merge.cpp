@@ -137,6 +137,15 @@ std::string lackingShards(const std::map<int, Part>& parts, int count) {
     return lacking;
 }
 
+/// Shards that are all there have every case of the plan.
+void checkCount(const std::map<int, Part>& parts, std::size_t planned) {
+    std::size_t found = 0;
+    for (const auto& [number, part] : parts) found += part.run.cases.size();
+    if (found != planned)
+        refuse("found " + std::to_string(found) + " cases in the " + std::to_string(parts.size()) +
+               " shards, expected the " + std::to_string(planned) + " of the plan");
+}
+
 /// Values that differ between shards, each with the shards that have it: "A (shards 1, 3); B (shard 2)".
 std::map<std::string, std::string> mergedEnvironment(const std::map<int, Part>& parts) {
     std::map<std::string, std::map<std::string, std::vector<int>>> values;
@@ -242,6 +251,7 @@ Run mergeShards(const MergeOptions& options) {
     if (!lacking.empty() && !options.partial)
         refuse("missing or unfinished shards of " + std::to_string(shard.count) + ": " + lacking +
                " (--partial merges the others)");
+    if (lacking.empty()) checkCount(parts, shard.planned);
     results::RunWriter writer(options.out, isBegun(options.out, shard.plan));
     const Run header = mergedHeader(parts, options, lacking);
     std::map<std::string, std::string> present;

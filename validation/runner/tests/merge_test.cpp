@@ -135,6 +135,18 @@ TEST_F(Merge, MissingAndUnfinishedShardsAreNamed) {
     expectWhole(mergeShards(into(folders)), wholeRun());
 }
 
+TEST_F(Merge, AFinishedShardThatLacksACaseIsRefused) {
+    const auto folders = runShards(2);
+    std::vector<std::string> kept;
+    for (const auto& row : results::readRun(folders[1]).cases) kept.push_back(row.id);
+    kept.pop_back();
+    results::RunWriter(folders[1], true).keepOnly(kept);
+    const auto planned = std::to_string(cases_.size()), found = std::to_string(cases_.size() - 1);
+    EXPECT_THAT(refusal(into(folders)), HasSubstr("found " + found + " cases in the 2 shards, expected the " +
+                                                  planned + " of the plan"));
+    EXPECT_FALSE(fs::exists(scratch_.path() / "merged"));
+}
+
 TEST_F(Merge, WhatDoesNotFitIsRefusedByName) {
     const auto folders = runShards(2);
     EXPECT_THAT(refusal(into({})), HasSubstr("no shard"));
