@@ -246,36 +246,33 @@ NamedPlot namedPlot(const std::string& name, const Plot& plot) {
     return {name, svgPlot(plot), plotCsv(plot)};
 }
 
-std::vector<NamedPlot> scenarioPlots(const ViewModel& view, const TrajectoryLoader& load) {
-    std::vector<NamedPlot> plots;
-    for (std::size_t s = 0; s < view.run().scenarios.size(); ++s) {
-        const auto& scenario = view.run().scenarios[s];
-        std::string name = "position_error";
-        Plot plot;
-        for (std::size_t c = 0; c < view.columns().size(); ++c) {
-            const auto& cases = view.cell(s, c).cases;
-            if (cases.empty()) continue;
-            const auto file = load(*cases.front());
-            if (!file || file->times.empty()) continue;
-            const auto* series = findSeries(*file, name);
-            if (!series && plot.lines.empty() && (series = findSeries(*file, ""))) name = series->name;
-            if (!series) continue;
-            const auto& column = view.columns()[c];
-            PlotLine line{column.label, colourOf(view, column), column.dash, {}, {}};
-            for (const std::size_t i : outlineIndices(series->channel.values, 4 * kCurvePoints)) {
-                line.x.push_back(file->times[i]);
-                line.y.push_back(series->channel.values[i]);
-            }
-            plot.lines.push_back(line);
-            plot.yLabel = name + (series->channel.unit.empty() ? "" : " [" + series->channel.unit + "]");
+std::optional<NamedPlot> scenarioPlot(const ViewModel& view, std::size_t index,
+                                      const TrajectoryLoader& load) {
+    const auto& scenario = view.run().scenarios[index];
+    std::string name = "position_error";
+    Plot plot;
+    for (std::size_t c = 0; c < view.columns().size(); ++c) {
+        const auto& cases = view.cell(index, c).cases;
+        if (cases.empty()) continue;
+        const auto file = load(*cases.front());
+        if (!file || file->times.empty()) continue;
+        const auto* series = findSeries(*file, name);
+        if (!series && plot.lines.empty() && (series = findSeries(*file, ""))) name = series->name;
+        if (!series) continue;
+        const auto& column = view.columns()[c];
+        PlotLine line{column.label, colourOf(view, column), column.dash, {}, {}};
+        for (const std::size_t i : outlineIndices(series->channel.values, 4 * kCurvePoints)) {
+            line.x.push_back(file->times[i]);
+            line.y.push_back(series->channel.values[i]);
         }
-        if (plot.lines.empty()) continue;
-        plot.title = scenario.title.empty() ? scenario.name : scenario.title;
-        plot.xLabel = "t [s]";
-        plot.logarithmic = name.find("error") != std::string::npos;
-        plots.push_back(namedPlot(fileNamePart(scenario.name) + "-" + fileNamePart(name), plot));
+        plot.lines.push_back(line);
+        plot.yLabel = name + (series->channel.unit.empty() ? "" : " [" + series->channel.unit + "]");
     }
-    return plots;
+    if (plot.lines.empty()) return std::nullopt;
+    plot.title = scenario.title.empty() ? scenario.name : scenario.title;
+    plot.xLabel = "t [s]";
+    plot.logarithmic = name.find("error") != std::string::npos;
+    return namedPlot(fileNamePart(scenario.name) + "-" + fileNamePart(name), plot);
 }
 
 }  // namespace rigor::report

@@ -4,6 +4,8 @@
 // A small SVG line plot: axes with round ticks, grid, legend, linear or logarithmic values.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,7 +50,8 @@ const char* paletteColour(std::size_t index);
 std::string colourOf(const ViewModel& view, const SpecColumn& column);
 /// Error over time step and error over cost of every scenario that was run at three time steps or more.
 std::vector<NamedPlot> refinementPlots(const ViewModel& view);
-/// One plot per scenario: its position error over time at the finest time step, or the first series there is.
-std::vector<NamedPlot> scenarioPlots(const ViewModel& view, const TrajectoryLoader& load);
+/// Position error of a scenario over time at the finest time step, or the first series there is; empty without one.
+std::optional<NamedPlot> scenarioPlot(const ViewModel& view, std::size_t scenario,
+                                      const TrajectoryLoader& load);
 
 }  // namespace rigor::report

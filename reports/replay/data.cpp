@@ -255,16 +255,18 @@ std::string replayName(std::size_t scenario, std::size_t step) {
     return "replay-" + std::to_string(scenario) + "-" + std::to_string(step);
 }
 
-void replayFiles(const ViewModel& view, const FullTrajectoryLoader& load,
-                 const std::function<void(const std::string& name, const std::string& bundle)>& write) {
-    const auto& scenarios = view.run().scenarios;
+ReplayBudget replayBudget(const ViewModel& view) {
     const auto& cases = view.run().cases;
-    ReplayBudget budget(std::count_if(cases.begin(), cases.end(),
+    return ReplayBudget(std::count_if(cases.begin(), cases.end(),
                                       [](const CaseRow& row) { return !row.trajectoryFile.empty(); }));
-    for (std::size_t i = 0; i < scenarios.size(); ++i)
-        for (std::size_t j = 0; j < replaySteps(view, i).size(); ++j)
-            if (const std::string bundle = replayBundle(view, i, j, load, budget); !bundle.empty())
-                write(replayName(i, j), bundle);
+}
+
+void replayFiles(const ViewModel& view, std::size_t scenario, const FullTrajectoryLoader& load,
+                 ReplayBudget& budget,
+                 const std::function<void(const std::string& name, const std::string& bundle)>& write) {
+    for (std::size_t step = 0; step < replaySteps(view, scenario).size(); ++step)
+        if (const std::string bundle = replayBundle(view, scenario, step, load, budget); !bundle.empty())
+            write(replayName(scenario, step), bundle);
 }
 
 }  // namespace rigor::report

@@ -44,6 +44,8 @@ class ReplayBudget {
     double perCase_, saved_ = 0.0;
 };
 
+ReplayBudget replayBudget(const ViewModel& view);
+
 /// Time steps that cases of a scenario were run at [s], coarsest first: the order of its replay files.
 std::vector<double> replaySteps(const ViewModel& view, std::size_t scenario);
 
@@ -55,8 +57,9 @@ std::string replayBundle(const ViewModel& view, std::size_t scenario, std::size_
 /// Name of the data file of a scenario at replaySteps()[step]: "replay-<scenario>-<step>".
 std::string replayName(std::size_t scenario, std::size_t step);
 
-/// Bundles of all scenarios at all their time steps, one after the other, with the names of their data files.
-void replayFiles(const ViewModel& view, const FullTrajectoryLoader& load,
+/// Bundles of a scenario at all its time steps, one after the other, with the names of their data files.
+void replayFiles(const ViewModel& view, std::size_t scenario, const FullTrajectoryLoader& load,
+                 ReplayBudget& budget,
                  const std::function<void(const std::string& name, const std::string& bundle)>& write);
 
 }  // namespace rigor::report

@@ -81,9 +81,11 @@ int synthesise(const fs::path& folder) {
     const auto write = [&](const std::string& name, const std::string& content) {
         writeFile(folder / "data" / (name + ".js"), dataFile(name, content));
     };
-    for (std::size_t i = 0; i < run.scenarios.size(); ++i)
+    ReplayBudget budget = replayBudget(view);
+    for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
         write("scenario-" + std::to_string(i), scenarioJson(view, i, load));
-    replayFiles(view, load, write);
+        replayFiles(view, i, load, budget, write);
+    }
     return 0;
 }
 

@@ -371,7 +371,7 @@ TEST_F(ReplayFiles, TimeStepsAreThoseThatWereRun) {
     const ViewModel view(run_);
     EXPECT_EQ(replaySteps(view, 0), (std::vector<double>{0.02, 0.01}));
     std::vector<std::string> names;
-    replayFiles(view, loader(), [&](const std::string& name, const std::string& bundle) {
+    replayFiles(view, 0, loader(), budget_, [&](const std::string& name, const std::string& bundle) {
         names.push_back(name);
         EXPECT_EQ(Bundle(bundle).meta["dt"], names.size() == 1 ? 0.02 : 0.01);
     });
