@@ -20,10 +20,12 @@ namespace fs = std::filesystem;
 using validation::shellWord;
 
 struct SweepArguments {
-    std::vector<std::string> validate, slurmOptions;
+    std::vector<std::string> plan, slurmOptions;  ///< `plan`: what is run, with options of the command
     std::string out;
     int shards = 1;
-    bool slurm = false, exclusive = false, submit = false;
+    bool isStudy = false, slurm = false, exclusive = false, submit = false;
+
+    std::string command() const { return isStudy ? "study" : "validate"; }
 };
 
 /// Directives of Slurm; for the shell they are comments.
@@ -70,7 +72,7 @@ if [ -f "$whole.part/results.sqlite" ]; then
     cp -r "$whole.part" "$run" || leave 7
     resume=--resume
 fi
-validate --shard "$k/$n" --out "$run" --quiet $resume &
+run_plan --shard "$k/$n" --out "$run" --quiet $resume &
 child=$!
 wait "$child"
 code=$?
@@ -88,24 +90,37 @@ std::string commandLine(const std::vector<std::string>& words) {
     return line;
 }
 
+/// The command line of the whole plan, to which a script adds options.
+std::string programWith(const SweepArguments& a) {
+    return shellWord(ownBinary().string()) + " " + a.command() + " " + commandLine(a.plan);
+}
+
 std::string shardScript(const SweepArguments& a, const fs::path& out) {
     return "#!/bin/sh\n" + directives(a, out, "shard") +
            "# Runs one shard: `sh shard.sh K`, or as a task of a Slurm array. Done again, it does what is "
            "missing.\n"
            "out=" +
-           shellWord(out.string()) + "\nn=" + std::to_string(a.shards) + "\nvalidate() {\n    exec " +
-           shellWord(ownBinary().string()) + " validate " + commandLine(a.validate) + " \"$@\"\n}\n" +
-           kShardBody;
+           shellWord(out.string()) + "\nn=" + std::to_string(a.shards) + "\nrun_plan() {\n    exec " +
+           programWith(a) + " \"$@\"\n}\n" + kShardBody;
+}
+
+/// Makes the tables of a study once the run is whole. What was red in the merge alone is judged by the study.
+std::string evaluation(const SweepArguments& a, const fs::path& out) {
+    if (!a.isStudy) return "";
+    return "code=$?\ncase $code in 0 | 1 | 6) ;; *) exit $code ;; esac\n"
+           "for option; do [ \"$option\" = --partial ] && exit $code; done\ncd \"$start\" || exit 7\nexec " +
+           programWith(a) + " --resume --quiet --out " + shellWord((out / "run").string()) + "\n";
 }
 
 std::string mergeScript(const SweepArguments& a, const fs::path& out) {
     const std::string folder = shellWord(out.string());
     return "#!/bin/sh\n" + directives(a, out, "merge") +
            "# Makes one run of the shards that are whole; `sh merge.sh --partial` of those that are there.\n"
-           "cd " +
+           "start=$PWD\ncd " +
            folder + "/shards || exit 7\nset -- \"$@\" --out " + folder +
            "/run\nfor shard in *; do\n    case $shard in *.new) continue ;; esac\n    set -- \"$@\" " +
-           folder + "/shards/\"$shard\"\ndone\nexec " + shellWord(ownBinary().string()) + " merge \"$@\"\n";
+           folder + "/shards/\"$shard\"\ndone\n" + (a.isStudy ? "" : "exec ") +
+           shellWord(ownBinary().string()) + " merge \"$@\"\n" + evaluation(a, out);
 }
 
 /// The first line that a command prints; throws EnvironmentError if it fails.
@@ -123,7 +138,9 @@ int sweep(const SweepArguments& a) {
     if (fs::exists(out / "shard.sh"))
         throw std::invalid_argument("--out: '" + a.out +
                                     "' holds a sweep already; its shard.sh goes on with it");
-    if (a.validate.empty()) throw std::invalid_argument("sweep: found no scenario or suite");
+    if (a.plan.empty())
+        throw std::invalid_argument(a.isStudy ? "sweep: found no study"
+                                              : "sweep: found no scenario or suite");
     results::createFolders(out / "shards");
     results::createFolders(out / "logs");
     const fs::path shard = out / "shard.sh", merge = out / "merge.sh";
@@ -152,13 +169,15 @@ void addSweep(CLI::App& app, Action& action) {
     auto* command = app.add_subcommand("sweep",
                                        "Write the scripts that run a plan in shards on many machines and "
                                        "merge them, and print how to start them");
-    command->prefix_command();  // the first word that is no option of this command begins those of `validate`
+    command->prefix_command();  // the first word that is no option of this command begins the plan
     command->add_option("--shards", a->shards, "Number of parts: each gets whole scenarios")
         ->required()
         ->check(CLI::Range(1, 100000));
     command
         ->add_option("--out", a->out, "Folder that all machines share: scripts, logs, shards, the merged run")
         ->required();
+    command->add_flag("--study", a->isStudy,
+                      "WHAT is a study, with options of `rigor study`; the merge makes its tables");
     command->add_flag("--slurm", a->slurm, "For Slurm (default: for GNU parallel)");
     command->add_flag("--submit", a->submit, "Submit them to Slurm at once");
     command->add_flag("--exclusive", a->exclusive,
@@ -169,11 +188,12 @@ void addSweep(CLI::App& app, Action& action) {
         ->allow_extra_args(false);
     command->footer(
         "Usage: rigor sweep --shards N --out DIR [OPTIONS] WHAT [options of `rigor validate`]\n"
+        "       rigor sweep --shards N --out DIR --study [OPTIONS] STUDY [options of `rigor study`]\n"
         "RIGOR_LOCAL is the folder on a node in which shards run (default: TMPDIR). Shards are moved to the "
         "shared\n"
         "folder when they are whole; interrupted ones are kept there and go on.");
     command->callback([a, command, &action] {
-        a->validate = command->remaining();
+        a->plan = command->remaining();
         action = [a] { return sweep(*a); };
     });
 }

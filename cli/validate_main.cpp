@@ -8,5 +8,5 @@ int main(int argc, char** argv) {
     using namespace rigor::cli;
     return runProgram(argc, argv,
                       {{addValidate, addRun, addList, addCheck, addCompare, addReport, addRecord, addMerge,
-                        addSweep, addCompletion}});
+                        addCompletion}});
 }

@@ -62,14 +62,23 @@ json timeless(const std::string& text) {
     return parts;
 }
 
-TEST(StudyCommand, ShardsGiveTheTablesOfTheWholeStudy) {
-    const auto study = (fs::path(testing::TempDir()) / "shared_study.json").string();
-    std::ofstream(study) << R"({"rigor_study": 1, "name": "shared", "parts": [
-        {"name": "masses", "scenarios": ["slide_and_stop", "free_flight"], "dt": [0.01],
-         "metrics": ["position_final", "time.step"], "variants": ["rigor", "ode:preset=matched"],
-         "symmetries": ["mirror", "time_reversal"]}]})";
-    const auto folder = fs::path(testing::TempDir()) / "study-shards";
+constexpr const char* kSharedStudy = R"({"rigor_study": 1, "name": "shared", "parts": [
+    {"name": "masses", "scenarios": ["slide_and_stop", "free_flight"], "dt": [0.01],
+     "metrics": ["position_final", "time.step"], "variants": ["rigor", "ode:preset=matched"],
+     "symmetries": ["mirror", "time_reversal"]}]})";
+
+/// An empty folder with the study of that text.
+fs::path folderWithStudy(const std::string& name, const char* text) {
+    const auto folder = fs::path(testing::TempDir()) / name;
     fs::remove_all(folder);
+    fs::create_directories(folder);
+    std::ofstream(folder / "shared.json") << text;
+    return folder;
+}
+
+TEST(StudyCommand, ShardsGiveTheTablesOfTheWholeStudy) {
+    const auto folder = folderWithStudy("study-shards", kSharedStudy);
+    const auto study = (folder / "shared.json").string();
     const auto out = [&](const std::string& name) { return " -q --out " + (folder / name).string(); };
     const auto whole = rigor("study " + study + " --json" + out("whole"), false);
     ASSERT_EQ(timeless(whole.out).at(0).at("rows").size(), 4u);
@@ -81,6 +90,11 @@ TEST(StudyCommand, ShardsGiveTheTablesOfTheWholeStudy) {
         EXPECT_FALSE(fs::exists(folder / name / "study.json"));
         shards += " " + (folder / name).string();
     }
+    const auto lacking =
+        rigor("merge" + shards.substr(0, shards.rfind(' ')) + " --out " + (folder / "lacking").string());
+    EXPECT_EQ(lacking.code, 2) << lacking.out;
+    EXPECT_NE(lacking.out.find("missing or unfinished shards of 3: 3"), std::string::npos) << lacking.out;
+    EXPECT_FALSE(fs::exists(folder / "lacking"));
     const auto merged = (folder / "merged").string();
     EXPECT_EQ(rigor("merge" + shards + " --out " + merged).code, 0);
     const auto tables = rigor("study " + study + " --json --resume -q --out " + merged, false);
@@ -88,6 +102,31 @@ TEST(StudyCommand, ShardsGiveTheTablesOfTheWholeStudy) {
     EXPECT_EQ(timeless(tables.out), timeless(whole.out));
     EXPECT_TRUE(fs::exists(folder / "merged/study.md"));
     EXPECT_EQ(rigor("study " + study + " --shard 4/3" + out("none")).code, 2);
+    EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
+/// The scripts of `rigor sweep` without a scheduler, from a folder that the study's path begins at.
+TEST(StudyCommand, ASweepGivesTheTablesOfTheWholeStudy) {
+    const auto folder = folderWithStudy("study-sweep", kSharedStudy);
+    const auto whole = rigor(
+        "study " + (folder / "shared.json").string() + " --json -q --out " + (folder / "whole").string(),
+        false);
+    const auto in = [&](const std::string& command) {
+        return std::system(("cd " + folder.string() + " && RIGOR_LOCAL=" + folder.string() + " " + command +
+                            " > out.txt 2>&1")
+                               .c_str());
+    };
+    const std::string begin = "sweep --shards 3 --out " + (folder / "sweep").string();
+    ASSERT_EQ(rigor(begin + " --study shared.json --audit").code, 0);
+    for (const char* shard : {"1", "2"}) EXPECT_EQ(in(std::string("sh sweep/shard.sh ") + shard), 0) << shard;
+    EXPECT_NE(in("sh sweep/merge.sh"), 0) << "a shard is missing";
+    EXPECT_FALSE(fs::exists(folder / "sweep/run/study.json"));
+    EXPECT_EQ(in("sh sweep/shard.sh 3"), 0);
+    EXPECT_EQ(WEXITSTATUS(in("sh sweep/merge.sh")), whole.code);
+    std::ifstream tables(folder / "sweep/run/study.json");
+    const std::string text((std::istreambuf_iterator<char>(tables)), {});
+    EXPECT_EQ(timeless(text), timeless(whole.out));
+    EXPECT_EQ(rigor("sweep --shards 3 --study --out " + (folder / "none").string()).code, 2) << "no study";
     EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
