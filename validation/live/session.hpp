@@ -88,6 +88,8 @@ class Session {
     void stage();
     void reset();
     void restart(int id);
+    /// The clock and all instances that can to a step before this one. Under the clock's lock.
+    void goBack(std::size_t step);
     void drag(const nlohmann::json& request, bool release);
     void remove(int id);
     nlohmann::json add(const nlohmann::json& request);

@@ -146,9 +146,13 @@ void Session::step(long by) {
     const bool inStep = std::any_of(instances_.begin(), instances_.end(),
                                     [](const auto& instance) { return instance->inStep(); });
     const auto back = static_cast<std::size_t>(-by) - (inStep ? 1 : 0);
-    clock_.target -= std::min(back, clock_.target);
+    goBack(clock_.target - std::min(back, clock_.target));
+}
+
+void Session::goBack(std::size_t step) {
+    clock_.target = step;
     for (const auto& instance : instances_)
-        if (instance->alive()) instance->requestStep(clock_.target);
+        if (instance->alive()) instance->requestStep(step);
 }
 
 void Session::stage() {
@@ -171,14 +175,21 @@ void Session::reset() {
     for (const auto& instance : instances_) instance->requestReset();
 }
 
-/// A new process for an instance that has ended. It comes to the session's time like one that is added.
+/// A new process for an instance that has ended. It comes to the session's time like one that is added. One that died would
+/// come to the step at which it did so once more: the session goes back to its last frame and stands still there.
 void Session::restart(int id) {
     const std::lock_guard lock(clock_.mutex);
     InstanceSlot* instance = find(id);
     if (instance == nullptr) throw CommandError("no such instance");
     if (instance->alive() || instance->state() == InstanceSlot::State::Loading)
         throw CommandError("the instance has not ended");
+    const bool died = instance->state() == InstanceSlot::State::Crashed ||
+                      instance->state() == InstanceSlot::State::TimedOut;
+    const std::size_t last = instance->step();
     instance->requestRestart();
+    if (!died || last >= clock_.target) return;
+    pause();
+    goBack(last);
 }
 
 void Session::drag(const json& request, bool release) {

@@ -121,17 +121,40 @@ TEST_F(Sessions, EnginesThatFailLeaveTheOthersAlone) {
     EXPECT_EQ(viewer_->instance(4)["state"], "bad_input");
     EXPECT_THAT(viewer_->instance(4)["message"].get<std::string>(), testing::HasSubstr("no_such_engine"));
     EXPECT_THROW(send({{"command", "restart"}, {"instance", 3}}), CommandError) << "it runs";
-    send({{"command", "pause"}});
-    send({{"command", "restart"}, {"instance", viewer_->instance(0)["id"]}});
-    EXPECT_TRUE(viewer_->until([&] { return viewer_->instance(0)["state"] != "crashed"; }))
-        << "it begins anew";
-    EXPECT_TRUE(viewer_->until([&] { return viewer_->instance(0)["state"] == "crashed"; }))
-        << "it comes to the step at which it aborts";
-    EXPECT_EQ(viewer_->instance(2)["state"], "non_finite") << "the others are left alone";
     send({{"command", "reset"}});
     EXPECT_TRUE(viewer_->until([&] {
         return viewer_->instance(0)["state"] == "ready" && viewer_->instance(2)["state"] == "ready";
     })) << "a reset begins anew";
+}
+
+/// An engine that is started again stands at its last frame, with all others, and not once more at the step that ended it.
+TEST_F(Sessions, ARestartLeadsToTheLastFrameBeforeTheEnd) {
+    open("double_abort,double_free_flight");
+    std::size_t last = 0;
+    while (last < 100) {
+        send({{"command", "step"}});
+        ASSERT_TRUE(viewer_->until([&] {
+            return viewer_->instance(1)["step"] == last + 1 &&
+                   (viewer_->instance(0)["step"] == last + 1 || viewer_->instance(0)["state"] == "crashed");
+        }));
+        if (viewer_->instance(0)["state"] == "crashed") break;
+        ++last;
+    }
+    ASSERT_LT(last, 100) << "it aborts";
+    ASSERT_GT(last, 0);
+    const std::vector<double> before = viewer_->poses_[0];
+    send({{"command", "step"}, {"steps", 50}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->instance(1)["step"] == last + 51; }));
+    send({{"command", "restart"}, {"instance", viewer_->instance(0)["id"]}});
+    ASSERT_TRUE(
+        viewer_->until([&] { return viewer_->instance(0)["state"] == "ready" && viewer_->allAt(last); }));
+    EXPECT_EQ(viewer_->state_["step"], last);
+    EXPECT_EQ(viewer_->state_["playing"], false);
+    EXPECT_EQ(viewer_->poses_[0], before) << "the frame that it had";
+    send({{"command", "step"}});
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->instance(0)["state"] == "crashed"; }))
+        << "and dies again";
+    EXPECT_EQ(viewer_->instance(1)["step"], last + 1);
 }
 
 /// An engine that hangs is alive until its time is up: a reset that comes before is not lost with it.

@@ -130,7 +130,7 @@ export class InstancesPanel {
         ended
           ? act(
               'Start again',
-              'A new process for this instance, up to the time of the others; Home begins anew with all',
+              'A new process for this instance, up to the time of the others; after a crash all go back to its last frame. Home begins anew with all',
               'restart',
               () => {
                 void this.#session.send({ command: 'restart', instance: instance.id });
