@@ -111,6 +111,9 @@ export const makeSolve = once((): { folder: string; json: string } => {
 export const query = (run: string, sql: string): unknown[][] =>
   JSON.parse(program('tests/report_tool', 'query', join(run, 'results.sqlite'), sql)) as unknown[][];
 
+/** Longest wait of a test [ms]: on a busy machine a click alone may take ten seconds. */
+const longestWait = 120_000;
+
 export interface Watched {
   page: Page;
   faults: string[]; // errors of the console and of the page, and all network requests
@@ -120,6 +123,7 @@ export interface Watched {
 /** A page that can reach only allowed addresses, and its faults: errors, and other requests. */
 export async function faultsOf(browser: Browser, options: BrowserContextOptions, mayRequest: (url: string) => boolean) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 1000 }, ...options });
+  context.setDefaultTimeout(longestWait);
   const faults: string[] = [];
   await context.route('**/*', (route) => {
     const url = route.request().url();

@@ -283,6 +283,9 @@ describe('the report of a real run', { skip }, () => {
 
   test('switching an engine off holds for all charts', async () => {
     await it.open('#/scenario/slide_and_stop');
+    // A replay that arrives moves what stands below it away from under the pointer.
+    await it.page.locator('#replay').scrollIntoViewIfNeeded();
+    await it.page.waitForSelector('.replay .label small:not(:empty)');
     const box = it.page.locator('#switches input').first();
     const ink = () =>
       it.page
@@ -291,14 +294,18 @@ describe('the report of a real run', { skip }, () => {
         .evaluate((node) => (node as HTMLCanvasElement).toDataURL());
     await it.page.locator('#curves').scrollIntoViewIfNeeded();
     await it.page.locator('#curves canvas').first().waitFor();
-    const before = await ink();
+    let before = '';
+    for (let now = await ink(); now !== before; now = await ink()) {
+      before = now;
+      await it.page.waitForTimeout(200); // it is drawn once more where the page has moved
+    }
     await box.uncheck();
     await it.page.waitForFunction(
       (old) => (document.querySelector('#curves canvas') as HTMLCanvasElement).toDataURL() !== old,
       before,
     );
     await it.page.getByRole('button', { name: 'all', exact: true }).click();
-    assert.equal(await box.isChecked(), true);
+    await it.page.waitForFunction(() => document.querySelector<HTMLInputElement>('#switches input')?.checked === true);
     it.clean();
   });
 
