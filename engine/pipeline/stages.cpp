@@ -127,7 +127,8 @@ void Step<S>::makeRows() {
         contactModel_.keepsInertia() && joints_.records().empty() && motion_.inertiaHolds();
     if (begins || !inertiaHolds) Motion<S>::setInertia(bodies_, tasks_);
     rows_.clear();
-    const ContactStep<S> step = contactStep();
+    if (motion_.isAtMidpoint()) findLandingBodies();
+    const ContactStep<S> step = contactStep();  // refers to the bodies that may land
     const BiasRule<Real> jointBias =
         method_.relinearizedJoints ? step.bias : method_.style.linearJointBias.value_or(step.bias);
     state_.jointStep = {h,
@@ -139,7 +140,6 @@ void Step<S>::makeRows() {
                         begins};
     joints_.addRows(bodies_, state_.jointStep, rows_, tasks_);
     state_.jointRows = rows_.rows.size();
-    if (motion_.isAtMidpoint()) findLandingBodies();
     if (begins) contactModel_.prepare(contacts_.list(), bodies_, step, tasks_);
     contactModel_.beginSubstep(contacts_.list(), bodies_, step, rows_, tasks_);
     if (algorithms_.restitution->solvesImpacts()) solveImpacts();
