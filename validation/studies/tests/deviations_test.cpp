@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -39,12 +40,20 @@ bool isolatedBy(const json& part, const std::string& scenario, const json& devia
     return variant && has(part.at("scenarios"), scenario) && has(part.at("metrics"), deviation.at("metric"));
 }
 
-/// "(plain_programs/bullet/touch.cpp" in a reason names a file of the conformance kit.
+/// "(plain_programs/bullet/touch.cpp" in a reason names a file of the conformance kit, "(guest/engines/plain/jolt.mjs" one of the
+/// guests.
 bool namesAPlainProgram(const std::string& reason) {
-    const std::size_t start = reason.find("plain_programs/");
-    if (start == std::string::npos) return false;
-    const std::string name = reason.substr(start, reason.find(".cpp", start) + 4 - start);
-    return std::filesystem::exists(std::filesystem::path(RIGOR_SOURCE_DIR) / "adapters/conformance" / name);
+    struct Place {
+        const char *folder, *begins, *ends;
+    };
+    for (const Place& place : {Place{"adapters/conformance", "plain_programs/", ".cpp"},
+                               Place{"adapters", "guest/engines/plain/", ".mjs"}}) {
+        const std::size_t start = reason.find(place.begins), end = reason.find(place.ends, start);
+        if (start == std::string::npos || end == std::string::npos) continue;
+        const std::string name = reason.substr(start, end + std::strlen(place.ends) - start);
+        return std::filesystem::exists(std::filesystem::path(RIGOR_SOURCE_DIR) / place.folder / name);
+    }
+    return false;
 }
 
 TEST(Deviations, EveryExperimentIsInTheRepository) {
