@@ -53,7 +53,10 @@ export function bindKeys(root: HTMLElement, stage: ReplayActions, controls: Cont
   const simple: Record<string, () => void> = {
     ' ': () => stage.player.toggle(),
     Home: () => stage.setTime(0),
-    End: () => stage.setTime(stage.player.end),
+    End: () => {
+      stage.player.pause();
+      stage.setTime(stage.player.end);
+    },
     '+': () => stage.player.shift(1),
     '-': () => stage.player.shift(-1),
     d: () => stage.jump('divergence'),

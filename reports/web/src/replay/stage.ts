@@ -212,12 +212,13 @@ export class ReplayStage implements ReplayActions {
   }
 
   choose(what: Choosable, forward: boolean): void {
+    this.player.pause();
+    this.view.settle(); // a slow picture may still show the frame before
     const source = this.shown.find((s) => s.spec === this.#pinned?.spec) ?? this.shown[0];
     const frame = source && this.view.frameOf(source)?.frame;
     const next = source && frame && chosenNext(what, forward, this.#pinned, source.spec, frame, this.#scene);
     this.controls.say(next ? '' : `There is no ${what} at this time.`);
     if (!next) return;
-    this.player.pause();
     this.view.setFinding(null);
     this.#pinned = next;
     this.view.mark(next.body);

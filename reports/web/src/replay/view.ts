@@ -377,6 +377,11 @@ export class ReplayView {
     if (this.#requested === 0) this.#requested = requestAnimationFrame(() => this.draw());
   }
 
+  /** Draws now what is requested, so that frameOf() is of the time that was set last. */
+  settle(): void {
+    if (this.#requested !== 0) this.draw();
+  }
+
   /** Draws now. */
   draw(): void {
     this.#useRatio(drawsInSoftware() ? this.#pace.ratioAt(performance.now()) : pixelRatio());

@@ -5,14 +5,13 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import type { CollideRun } from '../../src/collide/data.ts';
 import type { Point } from '../../src/common/finding.ts';
 import { makeCollide, reportOf, screenshots, skip } from '../browser.ts';
 
 describe('the page of collision queries', { skip }, () => {
   const it = reportOf(makeCollide);
-  before(() => it.page.setDefaultTimeout(60_000));
   const record = () => JSON.parse(readFileSync(join(it.run, 'collide.json'), 'utf8')) as CollideRun;
   const away = ({ from, to }: { from: Point; to: Point }) => {
     const d = to.map((x, k) => x - (from[k] as number)) as Point;

@@ -4,7 +4,7 @@
 // A link of the contact audit draws what it is about: the engine's normal, the exact one, the angle and the points of the
 // stored finding, from near, one engine alone, nothing covered; the address restores it.
 import assert from 'node:assert/strict';
-import { before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { query, reportOf, skip, smokeRun, watched } from '../browser.ts';
 
 type Vec = [number, number, number];
@@ -24,7 +24,6 @@ const angleOf = (a: Vec, b: Vec) => {
 
 describe('a finding of the audit is drawn', { skip }, () => {
   const it = reportOf(smokeRun);
-  before(() => it.page.setDefaultTimeout(60_000));
 
   /** The worst finding of a kind of all runs. */
   function worst(what: string): { scenario: string; spec: string; found: Stored } {
@@ -104,7 +103,6 @@ describe('a finding of the audit is drawn', { skip }, () => {
     await it.page.waitForFunction(() => location.hash.includes('view='));
     const hash = await it.page.evaluate(() => location.hash);
     const other = await watched(it.browser);
-    other.page.setDefaultTimeout(60_000);
     await other.page.goto(`file://${it.run}/index.html${hash}`);
     await other.page.waitForSelector('.replay .inspector.pinned [data-quantity="finding"]');
     await other.page.waitForFunction(

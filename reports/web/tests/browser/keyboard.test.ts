@@ -4,7 +4,7 @@
 // A report by the keyboard alone: from the overview to the scoreboard, a scenario, its replay, a contact and the search. The
 // focus is seen wherever it is, nothing holds it, and keys reach whatever a pointer may click.
 import assert from 'node:assert/strict';
-import { before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { reportOf, skip, smokeRun } from '../browser.ts';
 
 /** The element that has the focus, and whether it is marked. */
@@ -15,7 +15,6 @@ interface Focused {
 
 describe('a report by the keyboard alone', { skip }, () => {
   const it = reportOf(smokeRun);
-  before(() => it.page.setDefaultTimeout(60_000));
   const press = (key: string) => it.page.keyboard.press(key);
   const has = (selector: string) => it.page.evaluate((s) => document.activeElement?.matches(s) ?? false, selector);
   const focused = (): Promise<Focused> =>

@@ -4,7 +4,7 @@
 // The ten audited contacts of a run with the largest errors, up to five of normals, the others of depths, each opened by its
 // link: what is drawn is the stored contact, and the angle or depth measured in the picture is the stored number.
 import assert from 'node:assert/strict';
-import { before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import type { ContactFinding, Point } from '../../src/common/finding.ts';
 import { query, reportOf, skip, smokeRun } from '../browser.ts';
 
@@ -28,7 +28,6 @@ const angleOf = (a: Point, b: Point) =>
 
 describe('the contacts with the largest errors', { skip }, () => {
   const it = reportOf(smokeRun);
-  before(() => it.page.setDefaultTimeout(60_000));
 
   /** The largest errors of a kind, the largest first, one of each engine in a scenario. */
   function largest(what: ContactFinding['what']): Audited[] {

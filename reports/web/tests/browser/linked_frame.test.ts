@@ -156,7 +156,6 @@ describe('links of the contact audit', { skip }, () => {
     return makeRunOf('linked_frame', ...names.map(fileOf));
   });
   before(async () => {
-    it.page.setDefaultTimeout(60_000);
     await it.page.setViewportSize({ width: 800, height: 600 });
   });
 

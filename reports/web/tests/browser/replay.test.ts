@@ -8,7 +8,7 @@ import { execFileSync, spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { drawn, open, reportOf, screenshots, skip, smokeRun, watched } from '../browser.ts';
 
 const scenarios = ['box_stack', 'asymmetric_top', 'pendulum_chain', 'slip_to_roll_2d', 'bouncing_disc_2d'];
@@ -30,7 +30,6 @@ function stateOf(scenario: string, spec: string, body: string, step: number): nu
 
 describe('the replay of a real run', { skip }, () => {
   const it = reportOf(smokeRun);
-  before(() => it.page.setDefaultTimeout(60_000));
   const show = async (scenario: string, more = '') => {
     await it.open(`#/scenario/${scenario}${more}`);
     await it.page.locator('#replay').scrollIntoViewIfNeeded();

@@ -6,12 +6,11 @@
 import assert from 'node:assert/strict';
 import { readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
-import { before, describe, test } from 'node:test';
+import { describe, test } from 'node:test';
 import { drawn, reportOf, screenshots, skip, smokeRun, watched } from '../browser.ts';
 
 describe('tools of the replay', { skip }, () => {
   const it = reportOf(smokeRun);
-  before(() => it.page.setDefaultTimeout(60_000));
   const show = async (scenario: string, view: Record<string, string> = {}) => {
     const link =
       Object.keys(view).length > 0 ? `?view=${encodeURIComponent(new URLSearchParams(view).toString())}` : '';
@@ -205,7 +204,6 @@ describe('tools of the replay', { skip }, () => {
     const file = join(screenshots, page.name);
     const { writeFileSync } = await import('node:fs');
     writeFileSync(file, page.data);
-    other.page.setDefaultTimeout(60_000);
     await other.page.goto(`file://${file}`);
     await other.page.waitForSelector('#verdicts tbody tr');
     await other.page.locator('#replay').scrollIntoViewIfNeeded();

@@ -18,7 +18,6 @@ describe('the work of a replay in software', { skip }, () => {
   let pictures = 0;
   before(async () => {
     it = await watched(await sharedBrowser());
-    it.page.setDefaultTimeout(60_000);
     await it.page.addInitScript(() => {
       const work = { draws: 0, planes: 0, clears: 0 };
       const gl = WebGL2RenderingContext.prototype;
