@@ -52,6 +52,29 @@ describe('the replay of a real run', { skip }, () => {
     it.clean();
   });
 
+  test('has its place before its frames arrive: what stands below stays under the pointer', async () => {
+    const other = await watched(it.browser);
+    let arrive = () => {};
+    const held = new Promise<void>((resolve) => {
+      arrive = resolve;
+    });
+    await other.page.route(/replay-\d+-\d+/, async (route) => {
+      await held;
+      await route.continue();
+    });
+    await open(other.page, it.run, '#/scenario/box_stack');
+    await other.page.locator('#replay').scrollIntoViewIfNeeded();
+    await other.page.waitForSelector('.replay-note:has-text("Loading")');
+    const place = () => other.page.locator('#curves').evaluate((e) => e.getBoundingClientRect().top + scrollY);
+    const before = await place();
+    arrive();
+    await other.page.waitForSelector('.replay .label small:not(:empty)');
+    const moved = (await place()) - before;
+    assert.ok(Math.abs(moved) < 80, `${moved} px`); // a row of buttons more or less, by the width of the letters
+    assert.deepEqual(other.faults, []);
+    await other.close();
+  });
+
   test('steps, plays, pauses, scrubs', async () => {
     await show('box_stack');
     await action('forward');

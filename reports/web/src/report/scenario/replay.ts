@@ -12,7 +12,7 @@ export function replay(context: Context): HTMLElement | null {
   if (!cases.some((c) => c.trajectoryFile)) return null;
   const times = [...new Set(data.cases.map((c) => c.dt))].sort((a, b) => b - a);
   // It has the focus until there is a picture, which then gets it: keys come here before there is anything to come to.
-  const holder = el('div', { class: 'stage', tabindex: 0, role: 'group', 'aria-label': 'Replay' });
+  const holder = el('div', { class: 'replay-place', tabindex: 0, role: 'group', 'aria-label': 'Replay' });
   let handle: ReplayHandle | null = null;
   const mount = () => {
     if (handle) return;
@@ -29,7 +29,9 @@ export function replay(context: Context): HTMLElement | null {
     });
     void handle.ready.then(() => {
       holder.removeAttribute('tabindex');
-      if (document.activeElement === holder) holder.querySelector('canvas')?.focus();
+      const canvas = holder.querySelector('canvas');
+      if (!canvas) holder.classList.remove('replay-place'); // a sentence says why there is none
+      if (document.activeElement === holder) canvas?.focus();
     });
     const wanted = cursor.focus.value;
     if (wanted) handle.focus(wanted);
