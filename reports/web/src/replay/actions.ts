@@ -30,6 +30,8 @@ export interface ReplayActions {
   choose(what: Choosable, forward: boolean): void;
   toggleFollow(): void;
   toggleMeasure(): void;
+  /** Takes what is chosen as the next point to measure. */
+  measureChosen(): void;
   save(what: Saved): Promise<void>;
   isShown(source: FrameSource): boolean;
   toggleEngine(source: FrameSource): void;

@@ -32,6 +32,7 @@ const explained: [string, string][] = [
   ['y', 'names of bodies'],
   ['g', 'camera goes along with the chosen body'],
   ['x', 'measure: click two points, or three for an angle'],
+  ['Enter', 'measure: take what s or k has chosen as the next point'],
   ['?', 'this list'],
 ];
 
@@ -81,7 +82,8 @@ export function bindKeys(root: HTMLElement, stage: ReplayActions, controls: Cont
     const { key } = event;
     const layer = layers[key];
     if (key === 'ArrowLeft' || key === 'ArrowRight') stage.step(key === 'ArrowRight', event.shiftKey ? 10 : 1);
-    else if (key === ' ' && target.matches('button')) return;
+    else if ((key === ' ' || key === 'Enter') && target.matches('button')) return;
+    else if (key === 'Enter' && stage.measuring) stage.measureChosen();
     else if (simple[key]) simple[key]?.();
     else if (layer) controls.toggle(layer);
     else if (/^[1-9]$/.test(key)) {

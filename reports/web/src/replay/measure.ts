@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Distances and angles between points that were clicked. A point stays with its body, so that its distance can be
-// followed over time: two points give a distance, three an angle at the second one.
+// Distances and angles between points that were clicked or chosen by keys. A point stays with its body, so that its distance
+// can be followed over time: two points give a distance, three an angle at the second one.
 import { angleBetween } from '../common/finding.ts';
 import { degrees, lengthText, type Note } from './finding_overlay.ts';
 import type { Frame, FrameSource } from './frames.ts';
@@ -37,6 +37,13 @@ export class Measure {
 
   clear(): void {
     this.#marks = [];
+  }
+
+  /** What is measured at a frame, for those who hear it: "point 3, 0.5 m, 90°". */
+  said(frame: Frame): string {
+    const notes = this.at(() => frame)?.notes ?? [];
+    const texts = notes.filter(({ kind }) => kind === 'measure' || kind === 'angle').map(({ text }) => text);
+    return [`point ${this.#marks.length}`, ...texts].join(', ');
   }
 
   /** Distances and angles at a frame of the source. */

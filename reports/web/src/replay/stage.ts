@@ -14,7 +14,7 @@ import { composed, recordVideo, statesCsv } from './capture.ts';
 import type { ReplayContext } from './context.ts';
 import { Controls } from './controls.ts';
 import { followPointer, followTheme, type PointerActions } from './follow.ts';
-import { type FrameSource, indexAt } from './frames.ts';
+import { type Frame, type FrameSource, indexAt, middleOf } from './frames.ts';
 import { bodyReach } from './framing.ts';
 import { Inspector } from './inspector.ts';
 import {
@@ -241,9 +241,35 @@ export class ReplayStage implements ReplayActions {
     this.measuring = !this.measuring;
     this.#measure.clear();
     this.controls.say(
-      this.measuring ? 'Click two points for their distance, a third one for the angle at the second.' : '',
+      this.measuring
+        ? 'Click two points for their distance, a third one for the angle at the second. By keys: s or k, then Enter.'
+        : '',
     );
     this.controls.refresh();
+    this.view.invalidate();
+  }
+
+  /** The next point to measure: that of the chosen contact, or the origin of the chosen body. */
+  measureChosen(): void {
+    this.view.settle();
+    const pinned = this.#pinned;
+    const source = this.shown.find((s) => s.spec === pinned?.spec);
+    const frame = source && this.view.frameOf(source)?.frame;
+    if (!pinned || !source || !frame) {
+      this.controls.say('Choose a body (s) or a contact (k) first.');
+      return;
+    }
+    const contact = contactOf(pinned, frame);
+    const point =
+      frame.contacts && contact >= 0
+        ? middleOf(frame.contacts, contact)
+        : ([0, 1, 2].map((k) => frame.position[3 * pinned.body + k] as number) as Vec3);
+    this.#addMeasured(source, frame, pinned.body, point);
+  }
+
+  #addMeasured(source: FrameSource, frame: Frame, body: number, point: Vec3): void {
+    this.#measure.add(source, frame, body, point);
+    this.controls.say(this.#measure.said(frame));
     this.view.invalidate();
   }
 
@@ -333,8 +359,7 @@ export class ReplayStage implements ReplayActions {
       },
       click: (pick) => {
         if (this.measuring) {
-          if (pick) this.#measure.add(pick.source, pick.frame, pick.body, pick.point);
-          this.view.invalidate();
+          if (pick) this.#addMeasured(pick.source, pick.frame, pick.body, pick.point);
           return;
         }
         this.view.setFinding(null);

@@ -72,6 +72,43 @@ describe('tools of the replay', { skip }, () => {
     it.clean();
   });
 
+  test('a distance and an angle are measured by keys alone', async () => {
+    await show('box_stack', { e: one });
+    const press = (key: string) => it.page.keyboard.press(key);
+    const said = () => it.text('.replay .said');
+    const cell = (name: string) => `.replay .inspector.pinned [data-quantity="${name}"]`;
+    await it.page.focus('.replay canvas');
+    await press('x');
+    await press('Enter');
+    assert.match(await said(), /^Choose a body/);
+    const chosen = new Set<string>();
+    for (const point of [1, 2, 3]) {
+      await press('s');
+      chosen.add(await it.text(cell('body')));
+      assert.equal(chosen.size, point, 'another body');
+      await press('Enter');
+      assert.match(await said(), new RegExp(`^point ${point}`));
+    }
+    const origins = await stage<number[][]>(
+      `[1, 2, 3].map((b) => [0, 1, 2].map((k) => stage.view.frameOf(stage.shown[0]).frame.position[3 * b + k]))`,
+    );
+    const [first, second, third] = origins as [number[], number[], number[]];
+    const distance = (a: number[], b: number[]) => Math.hypot(...a.map((x, k) => x - (b[k] as number)));
+    const read = (await said()).split(', ').slice(1);
+    assert.equal(read.length, 3, read.join());
+    for (const [i, length] of [distance(first, second), distance(second, third)].entries()) {
+      const text = read[i] as string;
+      const metres = Number.parseFloat(text) * (/mm/.test(text) ? 1e-3 : 1);
+      assert.ok(Math.abs(metres - length) < 1e-3 * length, `${text} for ${length} m`);
+    }
+    assert.ok(Math.abs(Number.parseFloat(read[2] as string) - 180) < 1, `${read[2]} in a straight stack`);
+    await press('k');
+    await it.page.waitForSelector(cell('contact'));
+    await press('Enter'); // a fourth point begins anew
+    assert.match(await said(), /^point 1$/);
+    it.clean();
+  });
+
   test('the camera goes along with a body', async () => {
     await show('free_flight', { e: one, t: '0', b: '0' });
     const target = () => stage<number[]>('stage.view.camera.target');
