@@ -71,7 +71,8 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
         const Real d = closest.distance, rest = world.h - t;
         const Real near = touchingDistance<S>(A.start, B.start, closest);
         const Real u = closingSpeed(pair, world, closest, t), a = n.dot(A.acceleration - B.acceleration);
-        if (d < -near && i == 0) {
+        // The tolerance of an earlier touch was that of other poses.
+        if (d < -Real(2) * near && i == 0) {
             touch.overlapped = true;
             return touch;
         }
