@@ -141,7 +141,10 @@ TEST_F(ShownContacts, AreThoseThatTheAuditMeasured) {
         }
         EXPECT_GE(compared, 8u);
         EXPECT_EQ(audit.normalErrorMax.value(), worst);
-        EXPECT_NEAR(linked, audit.normalErrorMax.value(), kAgree) << audit.worst;
+        // A false contact is worse than a wrong normal, and has no exact one.
+        if (audit.worst.find("(spurious)") == std::string::npos) {
+            EXPECT_NEAR(linked, audit.normalErrorMax.value(), kAgree) << audit.worst;
+        }
         worstOfAll = std::max(worstOfAll, worst);
     }
     EXPECT_GT(worstOfAll, 1e-3) << "an engine is wrong here, and is shown to be as wrong as measured";

@@ -3,7 +3,8 @@
 //
 // Contacts that a world shows of a step from midpoint to midpoint. They were found in the middle of the step, and
 // their laws hold for the velocities at its end: they are shown there, at the poses that the world shows, to second order
-// in the step. Arms and normals go on from the middle as they came to it (contacts/row_lag.hpp).
+// in the step. Arms and normals go on from the middle as they came to it (contacts/row_lag.hpp). world_contacts.cpp finds
+// those of convex shapes again when they are read.
 #include "engine/narrowphase/distance.hpp"
 #include "engine/pipeline/small_turn.hpp"
 #include "engine/pipeline/step.hpp"
@@ -18,15 +19,6 @@ typename S::Vec normalTurn(const Contact<S>& contact, const RowLags<S>& lags) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
         if (!lags[i].normalTurn.isZero(0)) return lags[i].normalTurn;
     return S::Vec::Zero();
-}
-
-/// Turns a friction impulse into the plane of another normal; its size stays.
-template <class S>
-void turnInto(const typename S::Vec& normal, typename S::Vec& friction) {
-    const typename S::Real size = friction.norm();
-    friction -= normal.dot(friction) * normal;
-    const typename S::Real kept = friction.norm();
-    if (kept > 0) friction *= size / kept;
 }
 
 }  // namespace
@@ -89,7 +81,7 @@ void Step<S>::showAtEnd(Contact<S>& contact, const RowLags<S>& lags) const {
         const Vec between = across - found.dot(across) * found + point.separation * shown;
         point.pointA = end - (Real(1) - shareB) * between;
         point.pointB = end + shareB * between;
-        if (!turn.isZero(0)) turnInto<S>(shown, contact.totals[i].friction);
+        if (!turn.isZero(0)) contact.totals[i].friction = turnedInto<S>(shown, contact.totals[i].friction);
     }
     contact.manifold.normal = shown;
     contact.placed = false;

@@ -300,22 +300,6 @@ void World<S>::readJoints(std::vector<JointPlace<S>>& out) const {
     }
 }
 
-template <class S>
-void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
-    const BodyArrays<S>& bodies = parts_.bodies.arrays();
-    const ShapeSet<S>& shapes = parts_.contacts.shapes();
-    out.clear();
-    for (const Contact<S>& contact : parts_.contacts.list())
-        for (int i = 0; i < contact.manifold.count; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            const ManifoldPoint<S>& where = contact.manifold.points[k];
-            if (contact.vetoed || (contact.block[k] == kNullIndex && !contact.asleep)) continue;
-            out.push_back({bodies.id[contact.bodyA], bodies.id[contact.bodyB], shapes[contact.shapeA].id,
-                           shapes[contact.shapeB].id, where.pointA, where.pointB, contact.manifold.normal,
-                           where.separation, contact.totals[k].normal, contact.totals[k].friction});
-        }
-}
-
 RIGOR_INSTANTIATE_CLASS(World)
 
 }  // namespace rigor::engine

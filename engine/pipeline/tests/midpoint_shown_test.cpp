@@ -49,6 +49,38 @@ TYPED_TEST(MidpointShown, ContactsAreWhereTheStepEnds) {
     }
 }
 
+/// Balls that pass each other: the normal turns by a tenth of a radian in the step, and is that of its end at once.
+TYPED_TEST(MidpointShown, NewContactsHaveTheNormalOfTheEnd) {
+    using S = TypeParam;
+    WorldDef<S> def = midpointDef<S>();
+    def.gravity = S::Vec::Zero();
+    std::size_t seen = 0;
+    for (const double from : {-0.08, -0.04, 0.0}) {
+        World<S> world(def);
+        const auto smooth = world.addMaterial(0, 0);
+        BodyDef<S> fixed;
+        fixed.type = BodyType::Static;
+        attach<S>(world, world.addBody(fixed), Sphere<S>{0.5}, smooth);
+        const BodyId ball =
+            addBall<S>(world, from, std::sqrt(0.745 * 0.745 - from * from), 0.25, 1, smooth, 5);
+        const typename S::Vec before = world.velocity(ball);
+        world.step(kFrame);
+        const typename S::Vec center = world.pose(ball).p;
+        std::vector<ContactView<S>> contacts;
+        world.readContacts(contacts);
+        typename S::Vec sum = S::Vec::Zero();
+        for (const ContactView<S>& contact : contacts) {
+            ++seen;
+            EXPECT_NEAR((contact.normal - center.normalized()).norm(), 0, 1e-12) << from;
+            EXPECT_NEAR(contact.separation, center.norm() - 0.75, 1e-12) << from;
+            sum += contact.normalImpulse * contact.normal;
+        }
+        // The impulse acted along the normal of the middle: its size is kept.
+        EXPECT_NEAR(sum.norm(), (world.velocity(ball) - before).norm(), 1e-9) << from;
+    }
+    EXPECT_GT(seen, 0u);
+}
+
 /// A crank that a motor drives, a rod and a piston: where the crank is decides where the others are.
 template <class S>
 struct SliderCrank {
