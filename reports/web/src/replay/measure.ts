@@ -39,7 +39,7 @@ export class Measure {
     this.#marks = [];
   }
 
-  /** What is measured at a frame, for those who hear it: "point 3, 0.5 m, 90°". */
+  /** Text of what is measured at a frame, for those who hear it: "point 3, 0.5 m, 90°". */
   said(frame: Frame): string {
     const notes = this.at(() => frame)?.notes ?? [];
     const texts = notes.filter(({ kind }) => kind === 'measure' || kind === 'angle').map(({ text }) => text);

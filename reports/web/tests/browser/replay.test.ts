@@ -52,7 +52,7 @@ describe('the replay of a real run', { skip }, () => {
     it.clean();
   });
 
-  test('has its place before its frames arrive: what stands below stays under the pointer', async () => {
+  test('has its place and the focus before its frames arrive: what stands below stays under the pointer', async () => {
     const other = await watched(it.browser);
     let arrive = () => {};
     const held = new Promise<void>((resolve) => {
@@ -67,8 +67,10 @@ describe('the replay of a real run', { skip }, () => {
     await other.page.waitForSelector('.replay-note:has-text("Loading")');
     const place = () => other.page.locator('#curves').evaluate((e) => e.getBoundingClientRect().top + scrollY);
     const before = await place();
+    await other.page.focus('#replay [role="group"]');
     arrive();
     await other.page.waitForSelector('.replay .label small:not(:empty)');
+    await other.page.waitForFunction(() => document.activeElement?.matches('.replay canvas')); // it had the focus
     const moved = (await place()) - before;
     assert.ok(Math.abs(moved) < 80, `${moved} px`); // a row of buttons more or less, by the width of the letters
     assert.deepEqual(other.faults, []);

@@ -102,6 +102,7 @@ describe('tools of the replay', { skip }, () => {
       assert.ok(Math.abs(metres - length) < 1e-3 * length, `${text} for ${length} m`);
     }
     assert.ok(Math.abs(Number.parseFloat(read[2] as string) - 180) < 1, `${read[2]} in a straight stack`);
+    await press('ArrowRight'); // contacts are those that a step has acted upon
     await press('k');
     await it.page.waitForSelector(cell('contact'));
     await press('Enter'); // a fourth point begins anew

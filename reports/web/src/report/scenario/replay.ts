@@ -28,10 +28,11 @@ export function replay(context: Context): HTMLElement | null {
       findingOf: (spec, key) => findingOf(cases, spec, key),
     });
     void handle.ready.then(() => {
-      holder.removeAttribute('tabindex');
       const canvas = holder.querySelector('canvas');
       if (!canvas) holder.classList.remove('replay-place'); // a sentence says why there is none
+      // Before it can no longer have the focus: a browser may take it away at once.
       if (document.activeElement === holder) canvas?.focus();
+      holder.removeAttribute('tabindex');
     });
     const wanted = cursor.focus.value;
     if (wanted) handle.focus(wanted);
