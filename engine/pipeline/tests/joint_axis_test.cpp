@@ -189,7 +189,7 @@ void expectOscillator(const JointDef<S>& def, int axis, double x0, double (*read
                       double frequency, double zeta, double h, double& exactError, double startX = 0,
                       double startY = 0, double startAngle = 0) {
     using R = typename S::Real;
-    OneBody<S> one(WorldDef<S>{}, def, startX, startY);
+    OneBody<S> one(euler<S>(), def, startX, startY);
     (void)startAngle;
     one.world.setJointTarget(one.joint, axis, static_cast<R>(-x0));
     const double w = 2 * kPi * frequency, wd = w * std::sqrt(1 - zeta * zeta);
@@ -466,7 +466,7 @@ TYPED_TEST(JointAxes3, TwistMotorAndSwingSpring) {
     def.axes[0] = {};
     def.axes[1].frequency = R(2);
     def.axes[1].dampingRatio = R(0.1);
-    OneBody<S> swung(WorldDef<S>{}, def);
+    OneBody<S> swung(euler<S>(), def);
     swung.world.setVelocity(swung.body, S::Vec::Zero(), {R(0.5), 0, 0});
     // phi of a spring pendulum about one axis: signed here.
     double x = 0, v = 0.5;

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "scenarios/loader/loader.hpp"
 #include "validation/live/instance_frame.hpp"
@@ -35,11 +36,17 @@ std::vector<double> bits(InstanceWorld& instance) {
 class Instances : public testing::TestWithParam<const char*> {
   protected:
     void SetUp() override {
-        if (!fixtures::hasEngine(GetParam())) GTEST_SKIP() << "not installed";
+        if (!fixtures::hasEngine(adapter::parseSpec(GetParam()).engine)) GTEST_SKIP() << "not installed";
     }
 };
-INSTANTIATE_TEST_SUITE_P(Engines, Instances, testing::Values("rigor", "bullet", "ode"),
-                         [](const auto& one) { return std::string(one.param); });
+INSTANTIATE_TEST_SUITE_P(Engines, Instances,
+                         testing::Values("rigor", "rigor:integrator=symplectic_euler", "bullet", "ode"),
+                         [](const auto& one) {
+                             std::string name = one.param;
+                             std::replace_if(
+                                 name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+                             return name;
+                         });
 
 /// Every earlier state is restored bit for bit, by snapshots of the state (rigor, ode) or of the log
 /// (bullet), and so is the future after it, with a drag in between.
@@ -62,9 +69,10 @@ TEST_P(Instances, GoBackToTheSameBits) {
 }
 
 /// A block slides at metres a second: its contacts are reported as the step found them, and drawn where they
-/// have gone with it; after a step back as well.
+/// have gone with it; after a step back as well. Those that an engine reports where the step ends stay there.
 TEST_P(Instances, ContactsAreCarriedAlongWithTheirBodies) {
     const auto world = instance(GetParam());
+    const bool atEnd = world->world().contactInstant() == adapter::ContactInstant::StepEnd;
     world->advance(5, kLong);
     world->goTo(4);
     const scenario::Vec3 at = world->states()[1].position;
@@ -80,8 +88,11 @@ TEST_P(Instances, ContactsAreCarriedAlongWithTheirBodies) {
         if (bodyB[i] != 1) continue;
         ++ofBlock;
         const auto vec = [i](const auto& v) { return scenario::Vec3{v[3 * i], v[3 * i + 1], v[3 * i + 2]}; };
-        EXPECT_NEAR(norm(vec(carried) - at), norm(vec(found) - before), 1e-9) << "on the same spot of it";
-        EXPECT_GT(norm(vec(carried) - vec(found)), 1e-3);
+        EXPECT_NEAR(norm(vec(carried) - at), norm(vec(found) - (atEnd ? at : before)), 1e-9)
+            << "on the same spot of it";
+        if (!atEnd) {
+            EXPECT_GT(norm(vec(carried) - vec(found)), 1e-3);
+        }
     }
     EXPECT_GT(ofBlock, 0u);
 }
