@@ -71,7 +71,7 @@ template <class S>
 struct ContactView {
     BodyId bodyA, bodyB;
     ShapeId shapeA, shapeB;
-    typename S::Vec pointA, pointB, normal;  ///< in world coordinates, at the pose where it was found; normal
+    typename S::Vec pointA, pointB, normal;  ///< in world coordinates, where contactsAtStepEnd() says; normal
                                              ///< from A to B
     typename S::Real separation;             ///< [m]; < 0: overlap
     typename S::Real normalImpulse;          ///< [N s], >= 0
