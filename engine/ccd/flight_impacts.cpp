@@ -242,12 +242,7 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
     manifold_ = {};
     world.narrowPhase.collide(sa.shape, compose<S>(A, sa.local), sb.shape, compose<S>(B, sb.local), near,
                               manifold_);
-    if (manifold_.count == 0) {
-        manifold_.count = 1;
-        manifold_.normal = pair.touch.closest.normal;
-        manifold_.points[0] = {pair.touch.closest.pointA, pair.touch.closest.pointB,
-                               pair.touch.closest.distance, 0};
-    }
+    if (manifold_.count == 0) setToClosest<S>(pair.touch.closest, manifold_);
     const auto law = world.contacts.lawOfImpact(bodies, pair.a, pair.b, manifold_, A.p, B.p);
     if (!law) return false;
     const Pose<S> endA = bodies.pose[a], endB = bodies.pose[b];

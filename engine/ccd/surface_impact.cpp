@@ -147,9 +147,7 @@ void SurfaceImpact<S>::collideAt(const MovingShape<S>& a, const MovingShape<S>& 
         return;
     }
     manifold = {};
-    manifold.count = 1;
-    manifold.normal = impact.closest.normal;
-    manifold.points[0] = {impact.closest.pointA, impact.closest.pointB, impact.closest.distance, 0};
+    setToClosest<S>(impact.closest, manifold);
 }
 
 RIGOR_INSTANTIATE_CLASS(SurfaceImpact)

@@ -132,11 +132,7 @@ void collideAt(const MovingShape<S>& a, const MovingShape<S>& b, const TimeOfImp
                const NarrowPhase<S>& narrowPhase, Manifold<S>& manifold) {
     const typename S::Real t = impact.time;
     narrowPhase.collide(*a.shape, a.at(t), *b.shape, b.at(t), 2 * touchingGap<S>(a, b), manifold);
-    if (manifold.count > 0) return;
-    const ClosestPoints<S>& closest = impact.closest;
-    manifold.count = 1;
-    manifold.normal = closest.normal;
-    manifold.points[0] = {closest.pointA, closest.pointB, closest.distance, 0};
+    if (manifold.count == 0) setToClosest<S>(impact.closest, manifold);
 }
 
 #define RIGOR_INSTANTIATE(S)                                                                               \

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/math/space.hpp"
+#include "engine/narrowphase/manifold.hpp"
 #include "engine/shapes/shape.hpp"
 
 namespace rigor::engine {
@@ -27,5 +28,13 @@ struct ClosestPoints {
 /// have no distance: converged is false, the distance the lowest number there is. Does not allocate.
 template <class S>
 ClosestPoints<S> closestPoints(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb);
+
+/// Makes the closest points the one point of a manifold. Its memory stays.
+template <class S>
+void setToClosest(const ClosestPoints<S>& closest, Manifold<S>& manifold) {
+    manifold.count = 1;
+    manifold.normal = closest.normal;
+    manifold.points[0] = {closest.pointA, closest.pointB, closest.distance, 0};
+}
 
 }  // namespace rigor::engine

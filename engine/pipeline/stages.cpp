@@ -254,15 +254,26 @@ void Step<S>::move() {
     if (motion_.isAtMidpoint()) placeLandings();
 }
 
+/// The world around a move of h [s] that begins `begin` [s] after the step. Bodies that are paused take no part.
+template <class S>
+MovedWorld<S> Step<S>::movedWorld(Real h, Real begin, std::span<const std::uint8_t> paused) {
+    return {bodies_,
+            contacts_,
+            motion_,
+            *algorithms_.narrowPhase,
+            algorithms_.friction,
+            def_.restitutionThreshold,
+            h,
+            begin,
+            paused};
+}
+
 template <class S>
 void Step<S>::resolveImpacts() {
     const Real h = state_.substepSize;
     const Real begin =
         static_cast<Real>(state_.substep) * h + (motion_.isAtMidpoint() ? Real(0.5) * h : Real(0));
-    const bool inTime =
-        algorithms_.ccd->resolve({bodies_, contacts_, motion_, *algorithms_.narrowPhase, algorithms_.friction,
-                                  def_.restitutionThreshold, h, begin, pausedBodies()},
-                                 state_.impacts);
+    const bool inTime = algorithms_.ccd->resolve(movedWorld(h, begin, pausedBodies()), state_.impacts);
     result_.impactsCut = result_.impactsCut || !inTime;
 }
 
@@ -341,17 +352,18 @@ void Step<S>::advanceContacts() {
         contactModel_.advance(contacts_.list(), motion_.used(), state_.substepSize, tasks_);
 }
 
-#define RIGOR_INSTANTIATE(S)                 \
-    template void Step<S>::findPairs();      \
-    template void Step<S>::findManifolds();  \
-    template void Step<S>::makeRows();       \
-    template void Step<S>::kick();           \
-    template void Step<S>::solve();          \
-    template void Step<S>::move();           \
-    template void Step<S>::resolveImpacts(); \
-    template void Step<S>::relax();          \
-    template void Step<S>::solvePositions(); \
-    template void Step<S>::correct();        \
+#define RIGOR_INSTANTIATE(S)                                                                     \
+    template void Step<S>::findPairs();                                                          \
+    template void Step<S>::findManifolds();                                                      \
+    template void Step<S>::makeRows();                                                           \
+    template void Step<S>::kick();                                                               \
+    template void Step<S>::solve();                                                              \
+    template void Step<S>::move();                                                               \
+    template MovedWorld<S> Step<S>::movedWorld(S::Real, S::Real, std::span<const std::uint8_t>); \
+    template void Step<S>::resolveImpacts();                                                     \
+    template void Step<S>::relax();                                                              \
+    template void Step<S>::solvePositions();                                                     \
+    template void Step<S>::correct();                                                            \
     template SleepStep<S> Step<S>::sleepStep();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

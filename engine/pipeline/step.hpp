@@ -129,6 +129,7 @@ class Step {
     void correct();
 
     // --- data shared by them
+    MovedWorld<S> movedWorld(Real h, Real begin, std::span<const std::uint8_t> paused = {});
     // step_midpoints.cpp
     void toMidpoints();
     bool moveToMidpoints(bool same);

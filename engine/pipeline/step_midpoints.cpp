@@ -26,16 +26,8 @@ void Step<S>::beginFlights() {
 /// Bodies that have collided in flight go to where that takes them.
 template <class S>
 void Step<S>::endFlights() {
-    const MovedWorld<S> world{bodies_,
-                              contacts_,
-                              motion_,
-                              *algorithms_.narrowPhase,
-                              algorithms_.friction,
-                              def_.restitutionThreshold,
-                              state_.size,
-                              Real(0)};
-    result_.unlocatedImpacts =
-        state_.flights.resolve(world, algorithms_.restitution->bounces(), state_.impacts);
+    result_.unlocatedImpacts = state_.flights.resolve(movedWorld(state_.size, Real(0)),
+                                                      algorithms_.restitution->bounces(), state_.impacts);
     if (!state_.flights.anyHasCollided()) return;
     for (Contact<S>& contact : contacts_.list()) {
         if (!state_.flights.hasCollided(contact.bodyA) && !state_.flights.hasCollided(contact.bodyB))
@@ -80,9 +72,7 @@ bool Step<S>::moveToMidpoints(bool same) {
     ccd.remember(bodies_);
     motion_.flyToMidpoint(bodies_, state_.renewed, half);
     ccd.rememberKick(bodies_);
-    const bool inTime = ccd.resolve({bodies_, contacts_, motion_, *algorithms_.narrowPhase,
-                                     algorithms_.friction, def_.restitutionThreshold, half, Real(0)},
-                                    state_.impacts);
+    const bool inTime = ccd.resolve(movedWorld(half, Real(0)), state_.impacts);
     result_.impactsCut = result_.impactsCut || !inTime;
     motion_.finish(bodies_, half, tasks_);
     for (std::size_t i = 0; i < bodies_.size(); ++i)

@@ -95,9 +95,7 @@ void Step<S>::showGap(Contact<S>& contact) const {
     const ClosestPoints<S> closest =
         closestPoints<S>(a.shape, compose<S>(bodies_.pose[contact.bodyA], a.local), b.shape,
                          compose<S>(bodies_.pose[contact.bodyB], b.local));
-    contact.manifold.count = 1;
-    contact.manifold.normal = closest.normal;
-    contact.manifold.points[0] = {closest.pointA, closest.pointB, closest.distance, 0};
+    setToClosest<S>(closest, contact.manifold);
 }
 
 #define RIGOR_INSTANTIATE(S)               \

@@ -63,11 +63,8 @@ struct PosedPair {
     }
     /// Their closest points, as a manifold.
     Manifold<S> closest() const {
-        const ClosestPoints<S> points = closestPoints<S>(a.shape, Xa, b.shape, Xb);
         Manifold<S> found;
-        found.count = 1;
-        found.normal = points.normal;
-        found.points[0] = {points.pointA, points.pointB, points.distance, 0};
+        setToClosest<S>(closestPoints<S>(a.shape, Xa, b.shape, Xb), found);
         return found;
     }
 
