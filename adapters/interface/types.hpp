@@ -47,7 +47,7 @@ struct ContactPoint {
 /// The poses that the contacts of a step lie at, and that its laws of contact are about.
 enum class ContactInstant {
     StepStart,  ///< contacts are found at the poses at which the step began
-    StepEnd     ///< bodies move before contacts are found, or contacts of the middle are moved on to the end
+    StepEnd     ///< bodies move before contacts are found, or the engine finds or moves them to the end
 };
 
 /// Degree to which a requested setting was realised.

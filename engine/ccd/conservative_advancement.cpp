@@ -240,16 +240,19 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         for (const std::uint32_t i : {a, b}) goTo(world, i, t);
         impactSolver_.begin(bodies, shapes[hit.a], shapes[hit.b], manifold, *law);
         const Real impulse = impactSolver_.solve(bodies, world.friction, world.restitutionThreshold, true);
+        Vec friction = impactSolver_.frictionImpulse();
         for (const std::uint32_t i : {a, b})
             if (moves(world, i)) bodies.velocity[i].v += (rest / world.h) * kick_[i];
         const Real held = impactSolver_.solve(bodies, world.friction, Real(0), false);
+        friction += impactSolver_.frictionImpulse();
         for (const std::uint32_t i : {a, b})
             if (world.isPaused(i)) bodies.invMass[i] = 0;
         const bool inTime = goOn(world, a, t) & goOn(world, b, t);
         if (impulse + held > 0)
-            events.push_back({bodies.id[a], bodies.id[b], world.begin + hit.impact.exact,
+            events.push_back({bodies.id[a], bodies.id[b], shapes[hit.a].id, shapes[hit.b].id,
+                              world.begin + hit.impact.exact,
                               Vec(Real(0.5) * (hit.impact.closest.pointA + hit.impact.closest.pointB)),
-                              manifold.normal, impulse + held});
+                              manifold.normal, impulse + held, friction});
         return inTime;
     }
 

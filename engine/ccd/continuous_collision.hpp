@@ -24,11 +24,13 @@ namespace rigor::engine {
 /// A collision inside a step, at its own time.
 template <class S>
 struct ImpactEvent {
-    BodyId a, b;               ///< A is the body of lower dense index
+    BodyId a, b;  ///< A is the body of lower dense index
+    ShapeId shapeA, shapeB;
     typename S::Real time;     ///< time since the step began [s]
     typename S::Vec point;     ///< halfway between the closest points, world frame [m]
     typename S::Vec normal;    ///< unit, A to B
     typename S::Real impulse;  ///< impulse along the normal [N s], >= 0
+    typename S::Vec friction;  ///< impulse of friction on B [N s]
 };
 
 /// The world around the move of a (sub-)step.

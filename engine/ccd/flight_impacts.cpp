@@ -252,6 +252,7 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
         if (flying_[i]) goTo(world, i, t);
     impactSolver_.begin(bodies, sa, sb, manifold_, *law);
     const Real impulse = impactSolver_.solve(bodies, world.friction, world.restitutionThreshold, bounces_);
+    Vec friction = impactSolver_.frictionImpulse();
     for (const std::uint32_t i : {a, b}) {
         if (!flying_[i]) continue;
         Way& way = ways_[i];
@@ -272,13 +273,16 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
     }
     const bool presses = n.dot(ways_[a].acceleration - ways_[b].acceleration) > 0;
     Real held = 0;
-    if (fastest <= world.restitutionThreshold && presses) held = hold(world, a, b, t);
+    if (fastest <= world.restitutionThreshold && presses) {
+        held = hold(world, a, b, t);
+        friction += impactSolver_.frictionImpulse();
+    }
     if (!flying_[a]) bodies.pose[a] = endA;
     if (!flying_[b]) bodies.pose[b] = endB;
     if (impulse + held > 0)
-        events.push_back({bodies.id[a], bodies.id[b], world.begin + t,
+        events.push_back({bodies.id[a], bodies.id[b], sa.id, sb.id, world.begin + t,
                           Vec(Real(0.5) * (pair.touch.closest.pointA + pair.touch.closest.pointB)), n,
-                          impulse + held});
+                          impulse + held, friction});
     return true;
 }
 

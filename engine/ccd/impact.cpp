@@ -126,6 +126,19 @@ typename S::Real ImpactSolver<S>::solve(BodyArrays<S>& bodies, FrictionLaw<S> fr
     return sum;
 }
 
+template <class S>
+typename S::Vec ImpactSolver<S>::frictionImpulse() const {
+    typename S::Vec sum = S::Vec::Zero();
+    for (const Block<S>& block : rows_.blocks) {
+        if (block.kind != BlockKind::Contact) continue;
+        for (std::uint32_t r = 1; r < block.rows; ++r) {
+            const Row<S>& row = rows_.rows[block.first + r];
+            sum += row.impulse * row.lin;
+        }
+    }
+    return sum;
+}
+
 RIGOR_INSTANTIATE_CLASS(ImpactSolver)
 
 }  // namespace rigor::engine

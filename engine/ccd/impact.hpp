@@ -28,6 +28,8 @@ class ImpactSolver {
     /// Changes the velocities of both bodies. Approaches slower than `threshold` do not bounce; `bounce`
     /// false: none does. Returns the sum of the normal impulses [N s].
     Real solve(BodyArrays<S>& bodies, FrictionLaw<S> friction, Real threshold, bool bounce);
+    /// Sum of the friction impulses of the last solve on B [N s].
+    typename S::Vec frictionImpulse() const;
 
   private:
     ClonePtr<Solver<S>> solver_;

@@ -196,8 +196,8 @@ class World {
     /// Contacts of the last narrow phase, sorted by shapes: normal, points with their separations and
     /// features, and the impulses they start with. The list also has points that the solver does not need.
     const ContactList<S>& manifolds() const { return parts_.contacts.list(); }
-    /// Replaces `out` by the contacts of the last step: the points that got rows, and at the end of a step shapes that
-    /// overlap there. Where they lie: contactsAtStepEnd().
+    /// Replaces `out` by the contacts of the last step: the points that got rows, and where contacts belong to the end of
+    /// the step, shapes that overlap there, and impacts at their own times. Where they lie: contactsAtStepEnd().
     void readContacts(std::vector<ContactView<S>>& out) const;
     /// True if points, normals and separations of contacts are those of the poses at the end of the step, as with
     /// `moreau_midpoint`; false: of the poses at its start, where they were found.

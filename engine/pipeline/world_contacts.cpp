@@ -3,8 +3,9 @@
 //
 // Contacts that a world shows of its last step. Where a step leads from midpoint to midpoint they have acted at the poses of
 // its middle, which are not shown: those of convex shapes are found again at the poses that the world shows, by the same
-// narrow phase, when they are read. Each point that has acted gives its impulses to the nearest one there. Pieces of surfaces,
-// and manifolds that are kept from step to step, are shown as step_shown.cpp has moved them.
+// narrow phase, when they are read. Each point that has rows gives its impulses to the nearest one there. Impacts at their own
+// times give theirs to the contact of their shapes, which are their closest points if they have parted since. Pieces of
+// surfaces, and manifolds that are kept from step to step, are shown as step_shown.cpp has moved them.
 #include <algorithm>
 
 #include "engine/narrowphase/distance.hpp"
@@ -143,6 +144,33 @@ void append(const WorldParts<S>& world, std::uint32_t shapeA, std::uint32_t shap
     }
 }
 
+/// An impact at its own time: its impulses are those of the contact that its shapes have at the end of the step, or of
+/// their closest points there. Shapes that are not convex have none.
+template <class S>
+void addImpact(const WorldParts<S>& world, const ImpactEvent<S>& impact, std::vector<ContactView<S>>& out) {
+    const ShapeSet<S>& shapes = world.contacts.shapes();
+    if (!shapes.ids().contains(impact.shapeA) || !shapes.ids().contains(impact.shapeB)) return;
+    const auto distance = [&](const ContactView<S>& view) {
+        return (view.pointB - impact.point).squaredNorm();
+    };
+    ContactView<S>* nearest = nullptr;
+    for (ContactView<S>& view : out)
+        if (view.shapeA == impact.shapeA && view.shapeB == impact.shapeB &&
+            (nearest == nullptr || distance(view) < distance(*nearest)))
+            nearest = &view;
+    if (nearest == nullptr) {
+        const std::uint32_t a = shapes.ids().dense(impact.shapeA), b = shapes.ids().dense(impact.shapeB);
+        if (isComposite<S>(shapes[a].shape) || isComposite<S>(shapes[b].shape)) return;
+        ShownContact<S> shown;
+        shown.manifold = PosedPair<S>(world, a, b).closest();
+        shown.hasActed[0] = true;
+        append(world, a, b, shown, out);
+        nearest = &out.back();
+    }
+    nearest->normalImpulse += impact.impulse;
+    nearest->frictionImpulse += turnedInto<S>(nearest->normal, impact.friction);
+}
+
 }  // namespace
 
 template <class S>
@@ -166,6 +194,7 @@ void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
                                                                   : asItActed(contact),
                out);
     }
+    for (const ImpactEvent<S>& impact : lastStep().impacts) addImpact(parts_, impact, out);
 }
 
 #define RIGOR_INSTANTIATE(S) template void World<S>::readContacts(std::vector<ContactView<S>>&) const;

@@ -50,5 +50,77 @@ TYPED_TEST(FlightImpact, ATurningRodStrikesABallWhenItReachesIt) {
     }
 }
 
+/// Sum of the impulses of the contacts that are shown: along their normals, and of friction [N s].
+template <class S>
+struct Shown {
+    std::vector<ContactView<S>> contacts;
+    double normal = 0, friction = 0;
+
+    explicit Shown(const World<S>& world) {
+        world.readContacts(contacts);
+        for (const ContactView<S>& contact : contacts) {
+            normal += double(contact.normalImpulse);
+            friction += double(contact.frictionImpulse.norm());
+        }
+    }
+};
+
+/// A ball that bounces while it slips. The step in which it does shows one contact: with the impulse (1 + e) m v and
+/// mu times it as friction, at the closest points of ball and floor at the end of the step.
+TYPED_TEST(FlightImpact, ABounceIsShownAsAContact) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    constexpr double radius = 0.2, mass = 0.7, e = 0.6, mu = 0.1, down = 3, height = 0.53, h = 1.0 / 60;
+    WorldDef<S> def = earth<S>();
+    def.integrator = "moreau_midpoint";
+    World<S> world(def);
+    const std::uint32_t stuff = world.addMaterial(R(mu), R(e));
+    addGround<S>(world, stuff);
+    const BodyId ball = addBall<S>(world, 0, height, radius, mass, stuff);
+    world.setVelocity(ball, at<S>(5, -down), spin<S>(0));
+    const double speed = std::sqrt(down * down + 2 * kGravity * (height - radius));
+    int bounces = 0;
+    for (int i = 0; i < 12; ++i) {
+        const bool isHit = !world.step(R(h)).impacts.empty();
+        const Shown<S> shown(world);
+        ASSERT_EQ(shown.contacts.size(), isHit ? 1u : 0u) << i;
+        if (!isHit) continue;
+        ++bounces;
+        const ContactView<S>& contact = shown.contacts[0];
+        EXPECT_NEAR(shown.normal, (1 + e) * mass * speed, 1e-9);
+        EXPECT_NEAR(shown.friction, mu * shown.normal, 1e-9);
+        EXPECT_LT(contact.frictionImpulse.x(), 0) << "against the slip";
+        EXPECT_NEAR(contact.separation, world.pose(ball).p.y() - radius, 1e-12);
+        EXPECT_NEAR(contact.pointB.x(), world.pose(ball).p.x(), 1e-12);
+        EXPECT_GT(contact.separation, 0) << "it has left the floor";
+    }
+    EXPECT_EQ(bounces, 1);
+}
+
+/// A ball that lands and stays has the impulse of the impact and that of the rest of the step at one contact.
+TYPED_TEST(FlightImpact, ALandingIsShownOnce) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    constexpr double radius = 0.2, mass = 0.7, down = 3, height = 0.53, h = 1.0 / 60;
+    WorldDef<S> def = earth<S>();
+    def.integrator = "moreau_midpoint";
+    World<S> world(def);
+    addGround<S>(world, world.addMaterial(0, 0));
+    const BodyId ball = addBall<S>(world, 0, height, radius, mass, 0);
+    world.setVelocity(ball, at<S>(0, -down), spin<S>(0));
+    for (int i = 0; i < 12; ++i) {
+        const double before = double(world.velocity(ball).y());
+        const bool isHit = !world.step(R(h)).impacts.empty();
+        const Shown<S> shown(world);
+        const double gained = double(world.velocity(ball).y()) - before + kGravity * h;
+        EXPECT_NEAR(shown.normal, mass * gained, 1e-9)
+            << i << ": what the contacts give is what the ball gets";
+        if (isHit) {
+            EXPECT_EQ(shown.contacts.size(), 1u);
+        }
+    }
+    EXPECT_NEAR(world.velocity(ball).norm(), 0, 1e-9);
+}
+
 }  // namespace
 }  // namespace rigor::engine::test
