@@ -97,6 +97,10 @@ class Contacts {
     void keepSides(BodyArrays<S>& bodies, const Tasks& tasks) {
         sides_.keep(shapes_, filter_, bodies, tasks);
     }
+    /// The same for the way back from midpoints, to the end of the step.
+    void keepSidesOfMidpoints(BodyArrays<S>& bodies, const Tasks& tasks) {
+        sides_.keepOfMidpoints(shapes_, filter_, bodies, tasks);
+    }
     /// Appends an event for every contact, then for every overlap with a sensor, that has begun or ended.
     void addEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events, const Tasks& tasks) {
         events.insert(events.end(), removedEvents_.begin(), removedEvents_.end());

@@ -48,16 +48,16 @@ typename S::Vec middleNow(const ShapeRecord<S>& shape, const BodyArrays<S>& bodi
     return toWorld<S>(compose<S>(bodies.pose[shape.body], shape.local), shape.middle);
 }
 
-/// Takes the middle of a shape, `now`, to its side of all surfaces. False: it is there.
+/// Takes the middle of a shape, `now`, to the side of all surfaces that it had at `begin`. False: it is there.
 template <class S>
 bool stayOnSide(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter, const BodyArrays<S>& bodies,
-                std::uint32_t shape, typename S::Vec& now) {
+                std::uint32_t shape, const Pose<S>& begin, typename S::Vec& now) {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
     constexpr Real kGap = Real(0.05);  ///< distance kept from the surface, in inscribed radii
     constexpr int kMostRounds = 3;     ///< a shape moved back by one surface may have crossed another
     const ShapeRecord<S>& record = shapes[shape];
-    const Vec before = toWorld<S>(shapes.pose(shape), record.middle);
+    const Vec before = toWorld<S>(begin, record.middle);
     bool any = false;
     for (int round = 0; round < kMostRounds; ++round) {
         bool moved = false;
@@ -80,9 +80,11 @@ bool stayOnSide(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter, con
 
 }  // namespace
 
+/// `begin`: the pose of a shape, by its index.
 template <class S>
-void SurfaceSides<S>::keep(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter, BodyArrays<S>& bodies,
-                           const Tasks& tasks) {
+template <class Begin>
+void SurfaceSides<S>::keepFrom(const Begin& begin, const ShapeSet<S>& shapes,
+                               const CollisionFilter<S>& filter, BodyArrays<S>& bodies, const Tasks& tasks) {
     using Vec = typename S::Vec;
     if (shapes.surfaces().empty()) return;
     crossed_.resize(shapes.size());
@@ -91,14 +93,33 @@ void SurfaceSides<S>::keep(const ShapeSet<S>& shapes, const CollisionFilter<S>& 
         crossed_[i] = 0;
         if (!shapes.movable()[i] || bodies.asleep[shapes[i].body]) return;
         Vec now = middleNow<S>(shapes[i], bodies);
-        crossed_[i] = stayOnSide<S>(shapes, filter, bodies, shape, now);
+        crossed_[i] = stayOnSide<S>(shapes, filter, bodies, shape, begin(shape), now);
     });
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
         if (!crossed_[i]) continue;
         const Vec there = middleNow<S>(shapes[i], bodies);
         Vec now = there;
-        if (stayOnSide<S>(shapes, filter, bodies, i, now)) bodies.pose[shapes[i].body].p += now - there;
+        if (stayOnSide<S>(shapes, filter, bodies, i, begin(i), now))
+            bodies.pose[shapes[i].body].p += now - there;
     }
+}
+
+template <class S>
+void SurfaceSides<S>::keep(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter, BodyArrays<S>& bodies,
+                           const Tasks& tasks) {
+    keepFrom([&](std::uint32_t shape) { return shapes.pose(shape); }, shapes, filter, bodies, tasks);
+}
+
+template <class S>
+void SurfaceSides<S>::keepOfMidpoints(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter,
+                                      BodyArrays<S>& bodies, const Tasks& tasks) {
+    const Midpoints<S>& midpoints = bodies.midpoints;
+    const auto begin = [&](std::uint32_t shape) {
+        const std::uint32_t body = shapes[shape].body;
+        return midpoints.valid[body] ? compose<S>(midpoints.pose[body], shapes[shape].local)
+                                     : shapes.pose(shape);
+    };
+    keepFrom(begin, shapes, filter, bodies, tasks);
 }
 
 #define RIGOR_INSTANTIATE(S) template bool stayOnSideOf<S>(const Shape<S>&, const S::Vec&, S::Vec&, S::Real);

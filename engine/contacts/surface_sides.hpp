@@ -36,8 +36,15 @@ class SurfaceSides {
     /// height field back to the side that they came from.
     void keep(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter, BodyArrays<S>& bodies,
               const Tasks& tasks);
+    /// The same for the end of a step that has led to midpoints: bodies stay on the side that they have there.
+    void keepOfMidpoints(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter, BodyArrays<S>& bodies,
+                         const Tasks& tasks);
 
   private:
+    template <class Begin>
+    void keepFrom(const Begin& begin, const ShapeSet<S>& shapes, const CollisionFilter<S>& filter,
+                  BodyArrays<S>& bodies, const Tasks& tasks);
+
     std::vector<std::uint8_t> crossed_;  ///< flag of each shape: 1 if it has crossed a surface
 };
 

@@ -169,6 +169,7 @@ void Step<S>::toEnd() {
         algorithms_.large->motion.toEnd(bodies_, IslandSize::Large, algorithms_.large->motion.used(),
                                         halfOf(IslandSize::Large), tasks_);
     putJointsRight();
+    contacts_.keepSidesOfMidpoints(bodies_, tasks_);
     showContacts();
     if (algorithms_.locatesImpacts) endFlights();
 }
