@@ -21,9 +21,10 @@
 // step size changes, and for a body whose velocity was set.
 //
 // Friction opposes the mean slip (v_0 + v_1)/2 where it slides (RowContacts::updateSlips); a contact sticks where
-// v_1 does. A gap is closed by velocity however small it is: at a midpoint it is what the bodies' turning
-// leaves, as a joint's curvature, and not closing it would lift a body that turns about an edge. Contacts are
-// found as far ahead as bodies move in a step, so that those that others hold reach a midpoint without overlap.
+// v_1 does. A gap is closed by velocity, unless it is no wider than what iterations leave (gapAtMidpoint in
+// pipeline/stages.cpp): at a midpoint it is what the bodies' turning leaves, as a joint's curvature, and not closing it
+// would lift a body that turns about an edge. Contacts are found as far ahead as bodies move in a step, so that those
+// that others hold reach a midpoint without overlap.
 //
 // J(q_M) is half a step older than v_1. Where contacts turn, their rows hold for J(q_1), extrapolated (contacts/row_lag.hpp).
 //

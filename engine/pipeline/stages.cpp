@@ -151,6 +151,16 @@ bool Step<S>::rowsLag() const {
     return motion_.isAtMidpoint() && !method_.style.positions && method_.substeps == 1;
 }
 
+/// The widest gap at a midpoint that counts as closed [m]. Iterations end at a tolerance, and the gaps that the velocities
+/// left over open would be closed by velocities of their size in the next step, and so on: contacts at rest never would be.
+template <class S>
+typename S::Real gapAtMidpoint(const WorldDef<S>& def, typename S::Real h) {
+    using Real = typename S::Real;
+    const Real left = Real(100) * def.velocityTolerance * h * h * def.gravity.norm();
+    const Real rounding = Real(8) * std::numeric_limits<Real>::epsilon();  // positions have it at a metre
+    return std::min(def.gapSlop, std::max(left, rounding));
+}
+
 template <class S>
 ContactStep<S> Step<S>::contactStep() const {
     const Real h = state_.substepSize;
@@ -162,7 +172,7 @@ ContactStep<S> Step<S>::contactStep() const {
             std::max(def_.restitutionThreshold, Real(2) * gravityStep),
             biasRule(),
             def_.slop,
-            motion_.isAtMidpoint() ? Real(0) : def_.gapSlop,
+            motion_.isAtMidpoint() ? gapAtMidpoint(def_, h) : def_.gapSlop,
             def_.warmStarting && state_.lastSubstepSize > 0 ? h / state_.lastSubstepSize : Real(0),
             algorithms_.restitution->bounces(),
             motion_.isAtMidpoint() && !method_.style.positions,

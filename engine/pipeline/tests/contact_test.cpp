@@ -205,7 +205,7 @@ TYPED_TEST(Contacts, TallerStacksAreSolvedToo) {
             addGround<S>(world, m);
             std::vector<BodyId> boxes;
             for (int i = 0; i < count; ++i) boxes.push_back(addCube<S>(world, 0, 0.5 + i, 0.5, 1, m));
-            const Rest rest = restOf<S>(world, boxes, 120);
+            const Rest rest = restOf<S>(world, boxes, 240);
             EXPECT_LT(rest.energy, 1e-7) << count << " boxes";
             EXPECT_LT(rest.moved, 1e-4) << count << " boxes";
             int iterations = 0;

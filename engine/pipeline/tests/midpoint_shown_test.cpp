@@ -215,7 +215,7 @@ TYPED_TEST(MidpointShown, ABoardThatTipsKeepsItsEnergy) {
             if (!(contact.normalImpulse > 0)) continue;
             const typename S::Vec arm = contact.pointB - end.p;
             const typename S::Vec u = world.velocity(board) + cross(world.angularVelocity(board), arm);
-            ASSERT_NEAR(u[1], 0, 0.1 * lag + 5e-6) << i;
+            ASSERT_NEAR(u[1], 0, 0.1 * lag + 2e-5) << i;  // 1.6e-5: gaps that count as closed
             const typename S::Vec local = rotateInverse<double>(end.q, arm);
             const double second = kFrame * kFrame * 0.25 * (w * w + 2);  // first order: kFrame / 2 * 0.25 * w
             ASSERT_NEAR(std::abs(local[0]), 0.05, second) << i;
