@@ -329,8 +329,9 @@ bool FlightImpacts<S>::searchFrom(const MovedWorld<S>& world, std::uint32_t body
             if (known) continue;
             const bool fixed = world.bodies.constants[other].type != BodyType::Dynamic;
             const bool member = flying_[other] && rootOf(other) == cluster;
-            if ((!fixed && !member) || isComposite<S>(shapes[j].shape) || isComposite<S>(shapes[i].shape))
-                return false;
+            const bool surface = isComposite<S>(shapes[j].shape) || isComposite<S>(shapes[i].shape);
+            if (!surface && !comesNear(world, pair, ways_[body].begin)) continue;
+            if ((!fixed && !member) || surface) return false;
             clusterPairs_.push_back(pair);
         }
     }

@@ -8,7 +8,8 @@
 // spring, no contact slower than an impact when the step began (without restitution, of twice what forces
 // add in a step). Its way is then known,
 //     p(t) = p_0 + t v_0 + t^2/2 a,   q(t) = exp(t W) q_0    (W the mean angular velocity of free rotation)
-// Bodies in flight whose ways come near each other form a cluster. Where the way of no body of a cluster
+// Bodies in flight whose ways come near each other form a cluster: so near that they might touch, by what their
+// distance when the step begins is along the line of their closest points, and how far they may move along it. Where the way of no body of a cluster
 // meets anything, and the step has stopped none at a gap, the step stands as it is. Otherwise the cluster
 // is stepped from impact to impact: both bodies go to where they touch, get the impulses of the impact
 // there (impact.hpp), and go on for what is left of the step. A body that does not bounce stays in contact
@@ -109,10 +110,13 @@ class FlightImpacts {
     void makeWays(const MovedWorld<S>& world);
     Aabb<S> boxOf(const MovedWorld<S>& world, std::uint32_t shape, Aabb<S> box) const;
     void findPairs(const MovedWorld<S>& world);
-    bool mayTouch(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j) const;
+    bool mayTouch(const MovedWorld<S>& world, const Pair& pair) const;
     void addPair(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j);
     std::uint32_t rootOf(std::uint32_t body);
     Touch firstTouch(const MovedWorld<S>& world, const Pair& pair, Real from) const;
+    bool comesNear(const MovedWorld<S>& world, const Pair& pair, Real from) const;
+    Real turningAlong(const MovedWorld<S>& world, const Pair& pair, const Vec& n) const;
+    Real fastestAlong(const MovedWorld<S>& world, const Pair& pair, const Vec& n, Real t) const;
     Real closingSpeed(const Pair& pair, const MovedWorld<S>& world, const ClosestPoints<S>& closest,
                       Real t) const;
     ClosestPoints<S> look(const MovedWorld<S>& world, const Pair& pair, Real t) const;
@@ -136,7 +140,7 @@ class FlightImpacts {
     std::vector<std::uint32_t> parent_;  ///< union-find of bodies in flight
     std::vector<std::uint8_t> blocked_;  ///< 1 for a root: its cluster is left to the step
     // --- by dense shape index
-    std::vector<Aabb<S>> boxes_, startBoxes_;  ///< boxes of the ways, and of the starts alone
+    std::vector<Aabb<S>> boxes_, startBoxes_;  ///< boxes of the ways (boxOf), and of the starts alone
     std::vector<std::uint8_t> movable_;        ///< 1 for shapes of bodies in flight
     std::vector<ProxyPair> found_;
     ClonePtr<BroadPhase<S>> broadPhase_;
@@ -145,7 +149,8 @@ class FlightImpacts {
         blockers_;  ///< bodies in flight that come near what they cannot meet in flight
     std::vector<std::uint32_t> hitClusters_, members_;
     std::vector<std::pair<Pose<S>, Velocity<S>>> saved_;
-    Real half_ = 0;  ///< time at which contacts were found [s]
+    Vec drift_ = Vec::Zero();  ///< mean way of the bodies in flight without forces [m]
+    Real half_ = 0;            ///< time at which contacts were found [s]
     bool bounces_ = true;
     ImpactSolver<S> impactSolver_;
     Manifold<S> manifold_;

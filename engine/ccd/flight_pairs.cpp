@@ -52,7 +52,8 @@ void FlightImpacts<S>::makeWays(const MovedWorld<S>& world) {
     }
 }
 
-/// Contains the shape from the time that its body's way begins, when it has the box `box`, to the end.
+/// Contains the shape from the time that its body's way begins, when it has the box `box`, to the end: as seen from the
+/// frame that moves by drift_ in the step. As far in every direction, so that all pairs of mayTouch() overlap.
 template <class S>
 Aabb<S> FlightImpacts<S>::boxOf(const MovedWorld<S>& world, std::uint32_t shape, Aabb<S> box) const {
     const ShapeRecord<S>& record = world.contacts.shapes()[shape];
@@ -60,32 +61,32 @@ Aabb<S> FlightImpacts<S>::boxOf(const MovedWorld<S>& world, std::uint32_t shape,
     const Real rest = world.h - way.begin;
     const Vec d = rest * way.velocity.v + (Real(0.5) * rest * rest) * way.acceleration;
     // The parabola is this far from its chord.
-    const Vec bulge = (Real(0.125) * rest * rest) * way.acceleration.cwiseAbs();
+    const Real bulge = (Real(0.125) * rest * rest) * way.acceleration.norm();
     const Real turn =
         std::min(rest * std::sqrt(dotAng(way.turning, way.turning)), Real(2)) * record.boundingRadius;
-    box.min += d.cwiseMin(Real(0)) - bulge - Vec::Constant(turn);
-    box.max += d.cwiseMax(Real(0)) + bulge + Vec::Constant(turn);
+    const Vec start = (way.begin / world.h) * drift_;
+    const Vec margin = Vec::Constant((d - (rest / world.h) * drift_).norm() + bulge + turn);
+    box.min -= start + margin;
+    box.max += margin - start;
     return box;
 }
 
-/// False where the boxes of the starts are further apart than the shapes move relative to each other:
-/// neighbours that fall side by side.
+/// False where the shapes are further apart when the step begins than they may come nearer in it, along the line of their
+/// closest points: neighbours that fall side by side. Surfaces are judged by their boxes.
 template <class S>
-bool FlightImpacts<S>::mayTouch(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j) const {
-    const ShapeRecord<S>&a = world.contacts.shapes()[i], &b = world.contacts.shapes()[j];
+bool FlightImpacts<S>::mayTouch(const MovedWorld<S>& world, const Pair& pair) const {
+    const ShapeRecord<S>&a = world.contacts.shapes()[pair.a], &b = world.contacts.shapes()[pair.b];
     const Way &A = ways_[a.body], &B = ways_[b.body];
     const Real h = world.h;
     const Real turning = std::sqrt(dotAng(A.turning, A.turning)) * a.boundingRadius +
                          std::sqrt(dotAng(B.turning, B.turning)) * b.boundingRadius;
-    const Vec motion = (h * (A.velocity.v - B.velocity.v)).cwiseAbs() +
-                       (Real(0.5) * h * h * (A.acceleration - B.acceleration)).cwiseAbs() +
-                       Vec::Constant(h * turning);
-    for (int k = 0; k < S::dim; ++k) {
-        const Real gap = std::max(startBoxes_[i].min[k] - startBoxes_[j].max[k],
-                                  startBoxes_[j].min[k] - startBoxes_[i].max[k]);
-        if (gap > motion[k]) return false;
-    }
-    return true;
+    const Real motion = h * ((A.velocity.v - B.velocity.v).norm() + turning) +
+                        Real(0.5) * h * h * (A.acceleration - B.acceleration).norm();
+    const Aabb<S>&boxA = startBoxes_[pair.a], &boxB = startBoxes_[pair.b];
+    const Vec apart = (boxA.min - boxB.max).cwiseMax(boxB.min - boxA.max).cwiseMax(Real(0));
+    if (!(apart.squaredNorm() <= motion * motion)) return false;
+    if (isComposite<S>(a.shape) || isComposite<S>(b.shape)) return true;
+    return look(world, pair, Real(0)).distance <= motion + Real(1e-9);
 }
 
 /// Pairs of shapes whose boxes overlap, at least one of a body in flight.
@@ -96,6 +97,14 @@ void FlightImpacts<S>::findPairs(const MovedWorld<S>& world) {
     boxes_.resize(count);
     startBoxes_.resize(count);
     movable_.resize(count);
+    drift_.setZero();
+    Real flying = 0;
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
+        if (!flying_[i]) continue;
+        drift_ += ways_[i].velocity.v;
+        ++flying;
+    }
+    drift_ *= world.h / flying;
     for (std::uint32_t i = 0; i < count; ++i) {
         const ShapeRecord<S>& shape = shapes[i];
         startBoxes_[i] = boundingBox<S>(shape.shape, compose<S>(startPose_[shape.body], shape.local));
@@ -119,8 +128,11 @@ void FlightImpacts<S>::addPair(const MovedWorld<S>& world, std::uint32_t i, std:
     const ShapeSet<S>& shapes = world.contacts.shapes();
     const std::uint32_t bi = shapes[i].body, bj = shapes[j].body;
     if (bi == bj || !(flying_[bi] || flying_[bj])) return;
-    if (!mayTouch(world, i, j) || !world.contacts.filter().mayCollide(world.bodies, shapes[i], shapes[j]))
-        return;
+    if (!world.contacts.filter().mayCollide(world.bodies, shapes[i], shapes[j])) return;
+    Pair pair;
+    pair.a = bi < bj ? i : j;
+    pair.b = bi < bj ? j : i;
+    if (!mayTouch(world, pair)) return;
     const bool meets = (flying_[bi] || world.bodies.constants[bi].type != BodyType::Dynamic) &&
                        (flying_[bj] || world.bodies.constants[bj].type != BodyType::Dynamic) &&
                        !isComposite<S>(shapes[i].shape) && !isComposite<S>(shapes[j].shape);
@@ -132,17 +144,14 @@ void FlightImpacts<S>::addPair(const MovedWorld<S>& world, std::uint32_t i, std:
         blockers_.push_back(flying_[bi] ? bi : bj);
         return;
     }
-    Pair pair;
-    pair.a = bi < bj ? i : j;
-    pair.b = bi < bj ? j : i;
     pairs_.push_back(pair);
 }
 
-#define RIGOR_INSTANTIATE(S)                                                                            \
-    template void FlightImpacts<S>::findFlying(const MovedWorld<S>&);                                   \
-    template void FlightImpacts<S>::makeWays(const MovedWorld<S>&);                                     \
-    template void FlightImpacts<S>::findPairs(const MovedWorld<S>&);                                    \
-    template bool FlightImpacts<S>::mayTouch(const MovedWorld<S>&, std::uint32_t, std::uint32_t) const; \
+#define RIGOR_INSTANTIATE(S)                                                           \
+    template void FlightImpacts<S>::findFlying(const MovedWorld<S>&);                  \
+    template void FlightImpacts<S>::makeWays(const MovedWorld<S>&);                    \
+    template void FlightImpacts<S>::findPairs(const MovedWorld<S>&);                   \
+    template bool FlightImpacts<S>::mayTouch(const MovedWorld<S>&, const Pair&) const; \
     template void FlightImpacts<S>::addPair(const MovedWorld<S>&, std::uint32_t, std::uint32_t);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

@@ -52,6 +52,36 @@ typename S::Real FlightImpacts<S>::closingSpeed(const Pair& pair, const MovedWor
     return closest.normal.dot(uA - uB);
 }
 
+/// The speed along n that turning gives points of two shapes, at most.
+template <class S>
+typename S::Real FlightImpacts<S>::turningAlong(const MovedWorld<S>& world, const Pair& pair,
+                                                const Vec& n) const {
+    const ShapeRecord<S>&a = world.contacts.shapes()[pair.a], &b = world.contacts.shapes()[pair.b];
+    return turningAcross(n, ways_[a.body].turning) * a.boundingRadius +
+           turningAcross(n, ways_[b.body].turning) * b.boundingRadius;
+}
+
+/// The speed of shapes towards each other along n, at most, from t to the end of the step.
+template <class S>
+typename S::Real FlightImpacts<S>::fastestAlong(const MovedWorld<S>& world, const Pair& pair, const Vec& n,
+                                                Real t) const {
+    const Way &A = ways_[world.contacts.shapes()[pair.a].body],
+              &B = ways_[world.contacts.shapes()[pair.b].body];
+    const Real gains = n.dot(A.acceleration - B.acceleration);
+    return n.dot(A.linearAt(t) - B.linearAt(t)) + std::max(gains, Real(0)) * (world.h - t) +
+           turningAlong(world, pair, n);
+}
+
+/// False: the two shapes cannot touch from `from` on.
+template <class S>
+bool FlightImpacts<S>::comesNear(const MovedWorld<S>& world, const Pair& pair, Real from) const {
+    const ClosestPoints<S> closest = look(world, pair, from);
+    const Real near = touchingDistance<S>(ways_[world.contacts.shapes()[pair.a].body].start,
+                                          ways_[world.contacts.shapes()[pair.b].body].start, closest);
+    const Real fastest = fastestAlong(world, pair, closest.normal, from);
+    return closest.distance <= Real(2) * near + std::max(fastest, Real(0)) * (world.h - from);
+}
+
 /// The first time in [from, h] at which the shapes touch and approach each other: Newton's iteration on the
 /// distance, which for spheres and planes is exact at once, as long as it does not lead into an overlap, then
 /// bisection; where it does not come nearer, conservative advancement (time_of_impact.cpp).
@@ -76,9 +106,7 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
             touch.overlapped = true;
             return touch;
         }
-        const Real turning =
-            turningAcross(n, A.turning) * sa.boundingRadius + turningAcross(n, B.turning) * sb.boundingRadius;
-        const Real fastest = n.dot(A.linearAt(t) - B.linearAt(t)) + std::max(a, Real(0)) * rest + turning;
+        const Real fastest = fastestAlong(world, pair, n, t);
         if (!(fastest > 0)) return touch;
         Real step;
         if (d <= near) {
@@ -95,7 +123,7 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
             }
             // They part. They meet again after twice the time to where they are furthest apart.
             step = a > 0 ? -u / a : rest;
-            if (turning > 0) step = std::min(step, Real(0.125) * rest);
+            if (turningAlong(world, pair, n) > 0) step = std::min(step, Real(0.125) * rest);
             step = std::max(step, Real(1e-6) * world.h);
         } else {
             const Real safe = d / fastest;
@@ -136,6 +164,7 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
 #define RIGOR_INSTANTIATE(S)                                                                         \
     template S::Real touchingDistance<S>(const Pose<S>&, const Pose<S>&, const ClosestPoints<S>&);   \
     template ClosestPoints<S> FlightImpacts<S>::look(const MovedWorld<S>&, const Pair&, Real) const; \
+    template bool FlightImpacts<S>::comesNear(const MovedWorld<S>&, const Pair&, Real) const;        \
     template typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S>&,     \
                                                                            const Pair&, Real) const;
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)

@@ -65,6 +65,7 @@ template <class S>
 struct Rain {
     World<S> world;
     std::vector<BodyId> drops;
+    std::vector<char> hasLeft;  ///< flag of each drop: 1 if it has gone beyond the ground's rim
 
     Rain(const WorldDef<S>& def, const Shape<S>& ground, int count, bool bouncing = false, double size = 1)
         : world(def) {
@@ -96,17 +97,23 @@ struct Rain {
             drops.push_back(world.addBody(body));
             attach<S>(world, drops.back(), shape, stuff);
         }
+        hasLeft.assign(drops.size(), 0);
     }
     void run(int steps, int rate = 60) {
-        for (int i = 0; i < steps; ++i) world.step(typename S::Real(1.0 / rate));
+        for (int i = 0; i < steps; ++i) {
+            world.step(typename S::Real(1.0 / rate));
+            for (std::size_t k = 0; k < drops.size(); ++k)
+                hasLeft[k] = hasLeft[k] || !isOverGround(world.pose(drops[k]).p);
+        }
     }
+    static bool isOverGround(const typename S::Vec& p) {
+        return std::abs(p.x()) < 4.8 && (S::dim == 2 || std::abs(p[S::dim - 1]) < 4.8);
+    }
+    /// Bodies below the ground that have not gone round its rim.
     int lost() const {
         int count = 0;
-        for (const BodyId drop : drops) {
-            const auto p = world.pose(drop).p;
-            count += p.y() < -kRough - 0.3 && std::abs(p.x()) < 4.8 &&
-                     (S::dim == 2 || std::abs(p[S::dim - 1]) < 4.8);
-        }
+        for (std::size_t k = 0; k < drops.size(); ++k)
+            count += !hasLeft[k] && world.pose(drops[k]).p.y() < -kRough - 0.3;
         return count;
     }
 };
