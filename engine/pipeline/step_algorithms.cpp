@@ -83,6 +83,7 @@ template <class S>
 IslandMethod<S> makeLargeMethod(const WorldDef<S>& def) {
     WorldDef<S> fast = def;
     preferSpeed(fast);
+    fast.integrator = def.integrator;
     fast.substeps = std::max(fast.substeps, def.substeps);
     fast.velocityIterations = 0;
     fast.cacheTolerance = std::max(fast.cacheTolerance, def.cacheTolerance);

@@ -9,7 +9,7 @@
 namespace rigor::engine {
 
 /// Sets the choices that cost accuracy for speed, or that only pay in large scenes, and leaves the others:
-/// the solver `wide` with springs of contact half as stiff again as usual, results of the narrow phase cached
+/// the integrator `symplectic_euler`, the solver `wide` with springs of contact half as stiff again as usual, results of the narrow phase cached
 /// while a pair moves by less than a millimetre, the broad phase `wide_tree` with fat AABBs, points found 5
 /// mm and the way of a step ahead (one pass over soft contacts does not push out what heavy bodies overlap), and
 /// joints that are linearised at the start of each sub-step. The cost is that of soft contacts
@@ -18,6 +18,7 @@ template <class S>
 void preferSpeed(WorldDef<S>& def) {
     using Real = typename S::Real;
     def.solver = "wide";
+    def.integrator = "symplectic_euler";
     def.substeps = 5;
     def.contactFrequency = Real(45);
     def.cacheTolerance = Real(1e-3);

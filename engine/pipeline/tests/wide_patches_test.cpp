@@ -136,7 +136,9 @@ TYPED_TEST(WidePatches, OverlapIsPushedOutToTheSlopAndNotFast) {
 TYPED_TEST(WidePatches, PointsOfOnePatchKnowOfEachOther) {
     using S = TypeParam;
     using R = typename S::Real;
-    World<S> world(wide<S>());
+    WorldDef<S> def = wide<S>();
+    def.integrator = "symplectic_euler";  // impacts in flight are no patches
+    World<S> world(def);
     const auto ice = world.addMaterial(0, 0);
     addGround<S>(world, ice);
     const BodyId box = addCube<S>(world, 0, 0.5 + 1e-4, 0.5, 1, ice);

@@ -141,7 +141,7 @@ class Trajectories(unittest.TestCase):
 
     def test_contacts_are_rows(self) -> None:
         motion = made_run().trajectory(engine="rigor", dt=1 / 240)
-        first = motion.contacts_at(0)
+        first = motion.contacts_at(1)
         self.assertEqual(len(first), 4)
         np.testing.assert_allclose(first["normal"], [[0, 1, 0]] * 4, atol=1e-9)
         weight = 2.0 * 9.81 / 240  # the impulse of a step under the block of 2 kg

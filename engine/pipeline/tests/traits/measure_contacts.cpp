@@ -17,7 +17,7 @@ constexpr double kRestitution = 0.5;
 
 /// Normal velocity of the touching point of a sphere after an impact at 1 m/s, without friction.
 double reboundOfBall(const std::string& law) {
-    WorldDef<Plane> def;
+    WorldDef<Plane> def = euler<Plane>();
     def.restitution = law;
     World<Plane> world(def);
     const std::uint32_t rubber = world.addMaterial(0, kRestitution);
@@ -31,7 +31,7 @@ double reboundOfBall(const std::string& law) {
 /// of mass is not above the point. Newton's law keeps it at e times the approach, laws of impulses do not
 /// [KaneLevinson1985].
 double reboundOfCorner(const std::string& law) {
-    WorldDef<Plane> def;
+    WorldDef<Plane> def = euler<Plane>();
     def.restitution = law;
     World<Plane> world(def);
     const std::uint32_t rubber = world.addMaterial(1, kRestitution);

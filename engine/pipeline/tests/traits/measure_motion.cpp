@@ -109,7 +109,7 @@ bool ownsRotation(const std::string& integrator) {
     std::vector<Eigen::Quaterniond> ends;
     for (const auto& scheme : rotationTable<S>()) {
         if (!scheme.make().gyroscopic) continue;
-        WorldDef<S> def;
+        WorldDef<S> def = euler<S>();
         def.integrator = integrator;
         def.rotation = scheme.name;
         ends.push_back(topAfter(def, 1, 30));
@@ -158,7 +158,7 @@ IntegratorTraits measureIntegrator(const std::string& name) {
 }
 
 RotationTraits measureRotation(const std::string& name) {
-    WorldDef<S> def;
+    WorldDef<S> def = euler<S>();
     def.rotation = name;
     Top top = makeTop(def);
     const Invariants before = invariantsOf(top);
@@ -175,7 +175,7 @@ RotationTraits measureRotation(const std::string& name) {
 }
 
 OrientationTraits measureOrientation(const std::string& name) {
-    WorldDef<S> def;
+    WorldDef<S> def = euler<S>();
     def.orientationUpdate = name;
     World<S> world(def);
     const BodyId ball = addBall<S>(world, 0, 0, 0.5, 1, 0, 0, 0, 10);
@@ -185,7 +185,7 @@ OrientationTraits measureOrientation(const std::string& name) {
 }
 
 ContinuousCollisionTraits measureContinuousCollision(const std::string& name) {
-    WorldDef<S> def;
+    WorldDef<S> def = euler<S>();
     def.continuousCollision = name;
     def.restitutionThreshold = 0;
     World<S> world(def);
@@ -214,7 +214,7 @@ std::vector<std::string> liesOfIntegrator(const std::string& name) {
     if (t.scheme != declared.scheme) lies.emplace_back("scheme");
     if (t.forces != declared.forces) lies.emplace_back("forces");
     if (t.ownsRotation != declared.ownsRotation) lies.emplace_back("owns_rotation");
-    WorldDef<S> def;
+    WorldDef<S> def = euler<S>();
     def.integrator = name;
     checkBlocks(declared, def, lies);
     return lies;
@@ -227,7 +227,7 @@ std::vector<std::string> liesOfRotation(const std::string& name) {
     if (t.order != declared.order) lies.emplace_back("order");
     if (t.keepsMomentum != declared.keepsMomentum) lies.emplace_back("keeps_momentum");
     if (t.keepsEnergy != declared.keepsEnergy) lies.emplace_back("keeps_energy");
-    WorldDef<S> def;
+    WorldDef<S> def = euler<S>();
     def.rotation = name;
     checkBlocks(declared, def, lies);
     return lies;
@@ -237,7 +237,7 @@ std::vector<std::string> liesOfOrientation(const std::string& name) {
     const OrientationTraits& declared = orientationTraits(name);
     std::vector<std::string> lies;
     if (measureOrientation(name).exact != declared.exact) lies.emplace_back("exact");
-    WorldDef<S> def;
+    WorldDef<S> def = euler<S>();
     def.orientationUpdate = name;
     checkBlocks(declared, def, lies);
     return lies;

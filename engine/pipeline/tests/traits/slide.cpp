@@ -18,6 +18,7 @@ constexpr std::uint32_t kFloorMaterial = kUsualMaterial + 1;  ///< the first tha
 
 World<S> onFloor(const std::string& solver, const std::string& friction, double mu) {
     WorldDef<S> def = earth<S>();
+    def.integrator = "symplectic_euler";
     def.solver = solver;
     def.friction = friction;
     World<S> world(def);
