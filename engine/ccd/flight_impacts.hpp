@@ -8,8 +8,8 @@
 // spring, no contact slower than an impact when the step began (without restitution, of twice what forces
 // add in a step). Its way is then known,
 //     p(t) = p_0 + t v_0 + t^2/2 a,   q(t) = exp(t W) q_0    (W the mean angular velocity of free rotation)
-// Bodies in flight whose ways come near each other form a cluster: so near that they might touch, by what their
-// distance when the step begins is along the line of their closest points, and how far they may move along it. Where the way of no body of a cluster
+// Bodies in flight whose ways come near each other form a cluster: those that are no further apart when the
+// step begins than they move relative to each other in it. Where the way of no body of a cluster
 // meets anything, and the step has stopped none at a gap, the step stands as it is. Otherwise the cluster
 // is stepped from impact to impact: both bodies go to where they touch, get the impulses of the impact
 // there (impact.hpp), and go on for what is left of the step. A body that does not bounce stays in contact

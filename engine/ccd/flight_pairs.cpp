@@ -71,8 +71,8 @@ Aabb<S> FlightImpacts<S>::boxOf(const MovedWorld<S>& world, std::uint32_t shape,
     return box;
 }
 
-/// False where the shapes are further apart when the step begins than they may come nearer in it, along the line of their
-/// closest points: neighbours that fall side by side. Surfaces are judged by their boxes.
+/// False where the shapes are further apart when the step begins than they move relative to each other in it: neighbours
+/// that fall side by side. The distance of surfaces is that of their boxes.
 template <class S>
 bool FlightImpacts<S>::mayTouch(const MovedWorld<S>& world, const Pair& pair) const {
     const ShapeRecord<S>&a = world.contacts.shapes()[pair.a], &b = world.contacts.shapes()[pair.b];
