@@ -157,7 +157,7 @@ template <class S>
 typename S::Real gapAtMidpoint(const WorldDef<S>& def, typename S::Real h) {
     using Real = typename S::Real;
     const Real left = Real(100) * def.velocityTolerance * h * h * def.gravity.norm();
-    const Real rounding = Real(8) * std::numeric_limits<Real>::epsilon();  // positions have it at a metre
+    const Real rounding = Real(8) * std::numeric_limits<Real>::epsilon();  // positions of a metre have it
     return std::min(def.gapSlop, std::max(left, rounding));
 }
 

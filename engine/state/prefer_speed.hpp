@@ -9,11 +9,11 @@
 namespace rigor::engine {
 
 /// Sets the choices that cost accuracy for speed, or that only pay in large scenes, and leaves the others:
-/// the integrator `symplectic_euler`, the solver `wide` with springs of contact half as stiff again as usual, results of the narrow phase cached
-/// while a pair moves by less than a millimetre, the broad phase `wide_tree` with fat AABBs, points found 5
-/// mm and the way of a step ahead (one pass over soft contacts does not push out what heavy bodies overlap), and
-/// joints that are linearised at the start of each sub-step. The cost is that of soft contacts
-/// (solvers/wide/wide.cpp): bodies overlap by what the springs need to carry the load.
+/// the integrator `symplectic_euler`, the solver `wide` with springs of contact half as stiff again as usual,
+/// results of the narrow phase cached while a pair moves by less than a millimetre, the broad phase `wide_tree`
+/// with fat AABBs, points found 5 mm and the way of a step ahead (one pass over soft contacts does not push out
+/// what heavy bodies overlap), and joints that are linearised at the start of each sub-step. The cost is that of
+/// soft contacts (solvers/wide/wide.cpp) and of order 1: bodies overlap by what the springs need to carry the load.
 template <class S>
 void preferSpeed(WorldDef<S>& def) {
     using Real = typename S::Real;
