@@ -79,6 +79,18 @@ class ContactModel {
         (void)velocities;
         (void)rows;
     }
+    /// The same for some blocks alone, in any order.
+    virtual void updateSlips(std::span<const Velocity<S>> velocities, std::span<const std::uint32_t> blocks,
+                             ConstraintRows<S>& rows) const {
+        (void)velocities;
+        (void)blocks;
+        (void)rows;
+    }
+    /// Whether updateSlips() may change the biases of a block.
+    virtual bool hasSlip(std::uint32_t block) const {
+        (void)block;
+        return false;
+    }
     /// Called between two solves: gives points of speculative contacts that the impact has reached their
     /// rebound. Returns whether there are any.
     virtual bool applySpeculativeRestitution(const ContactList<S>& contacts, ConstraintRows<S>& rows) const {

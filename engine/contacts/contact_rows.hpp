@@ -27,6 +27,11 @@ class RowContacts final : public ContactModel<S> {
     void beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodies, const ContactStep<S>& step,
                       ConstraintRows<S>& rows, const Tasks& tasks) override;
     void updateSlips(std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) const override;
+    void updateSlips(std::span<const Velocity<S>> velocities, std::span<const std::uint32_t> blocks,
+                     ConstraintRows<S>& rows) const override;
+    bool hasSlip(std::uint32_t block) const override {
+        return block < slipOf_.size() && slipOf_[block] != kNullIndex;
+    }
     void solve(Solver<S>& solver, const SolverInput<S>& input, const Tasks& tasks) override;
     bool applySpeculativeRestitution(const ContactList<S>& contacts, ConstraintRows<S>& rows) const override;
     void store(ContactList<S>& contacts, const ConstraintRows<S>& rows, bool last,
@@ -53,11 +58,14 @@ class RowContacts final : public ContactModel<S> {
         std::array<Real, S::tangents> before{};   ///< along its tangents [m/s]
         std::array<Real, S::tangents> surface{};  ///< velocity of the surfaces over the bodies [m/s]
     };
+    void updateSlip(const Slip& slip, std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) const;
+
     std::vector<RowLags<S>>
         lags_;  ///< one for each contact, empty in steps whose rows are not those of a midpoint
     std::vector<LandingPoint<Real>> landings_;
-    std::vector<Slip> slips_;  ///< points where friction opposes the mean slip
-    bool stepBegins_ = false;  ///< the next sub-step is the first of its step
+    std::vector<Slip> slips_;            ///< points where friction opposes the mean slip
+    std::vector<std::uint32_t> slipOf_;  ///< slip of each block, kNullIndex: none
+    bool stepBegins_ = false;            ///< the next sub-step is the first of its step
 };
 
 /// Rounding of coordinates of order one metre: closer than this is touching.

@@ -31,6 +31,7 @@ template <class S>
 void RowContacts<S>::findSlips(const ContactList<S>& contacts, const BodyArrays<S>& bodies,
                                const ContactStep<S>& step, const ConstraintRows<S>& rows) {
     slips_.clear();
+    slipOf_.clear();
     if (S::dim == 2 || !step.meanSlip) return;
     const Real slowest = Real(0.05) * step.restingGap / step.h;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -53,34 +54,50 @@ void RowContacts<S>::findSlips(const ContactList<S>& contacts, const BodyArrays<
             if (first * first + second * second > slowest * slowest) slips_.push_back(slip);
         }
     }
+    if (slips_.empty()) return;
+    slipOf_.resize(rows.blocks.size(), kNullIndex);
+    for (std::size_t k = 0; k < slips_.size(); ++k) slipOf_[slips_[k].block] = static_cast<std::uint32_t>(k);
 }
 
 template <class S>
 void RowContacts<S>::updateSlips(std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) const {
-    for (const Slip& slip : slips_) {
-        const Block<S>& block = rows.blocks[slip.block];
-        Row<S>* tangents = rows.rows.data() + block.first + 1;
-        Eigen::Matrix<Real, S::tangents, 1> before, after;
-        for (int i = 0; i < S::tangents; ++i) {
-            before[i] = slip.before[static_cast<std::size_t>(i)];
-            after[i] = rowVelocity<S>(tangents[i], velocities[block.a], velocities[block.b]);
-            if (slip.surface[static_cast<std::size_t>(i)] != 0)
-                after[i] += slip.surface[static_cast<std::size_t>(i)];
-        }
-        const Eigen::Matrix<Real, S::tangents, 1> bias = slipBias<Real, S::tangents>(before, after);
-        for (int i = 0; i < S::tangents; ++i) {
-            tangents[i].bias = bias[i];
-            if (slip.surface[static_cast<std::size_t>(i)] != 0)
-                tangents[i].bias += slip.surface[static_cast<std::size_t>(i)];
-            tangents[i].relaxedBias = tangents[i].bias;
-        }
+    for (const Slip& slip : slips_) updateSlip(slip, velocities, rows);
+}
+
+template <class S>
+void RowContacts<S>::updateSlips(std::span<const Velocity<S>> velocities,
+                                 std::span<const std::uint32_t> blocks, ConstraintRows<S>& rows) const {
+    for (const std::uint32_t block : blocks)
+        if (hasSlip(block)) updateSlip(slips_[slipOf_[block]], velocities, rows);
+}
+
+template <class S>
+void RowContacts<S>::updateSlip(const Slip& slip, std::span<const Velocity<S>> velocities,
+                                ConstraintRows<S>& rows) const {
+    const Block<S>& block = rows.blocks[slip.block];
+    Row<S>* tangents = rows.rows.data() + block.first + 1;
+    Eigen::Matrix<Real, S::tangents, 1> before, after;
+    for (int i = 0; i < S::tangents; ++i) {
+        before[i] = slip.before[static_cast<std::size_t>(i)];
+        after[i] = rowVelocity<S>(tangents[i], velocities[block.a], velocities[block.b]);
+        if (slip.surface[static_cast<std::size_t>(i)] != 0)
+            after[i] += slip.surface[static_cast<std::size_t>(i)];
+    }
+    const Eigen::Matrix<Real, S::tangents, 1> bias = slipBias<Real, S::tangents>(before, after);
+    for (int i = 0; i < S::tangents; ++i) {
+        tangents[i].bias = bias[i];
+        if (slip.surface[static_cast<std::size_t>(i)] != 0)
+            tangents[i].bias += slip.surface[static_cast<std::size_t>(i)];
+        tangents[i].relaxedBias = tangents[i].bias;
     }
 }
 
-#define RIGOR_INSTANTIATE(S)                                                                  \
-    template void RowContacts<S>::findSlips(const ContactList<S>&, const BodyArrays<S>&,      \
-                                            const ContactStep<S>&, const ConstraintRows<S>&); \
-    template void RowContacts<S>::updateSlips(std::span<const Velocity<S>>, ConstraintRows<S>&) const;
+#define RIGOR_INSTANTIATE(S)                                                                                \
+    template void RowContacts<S>::findSlips(const ContactList<S>&, const BodyArrays<S>&,                    \
+                                            const ContactStep<S>&, const ConstraintRows<S>&);               \
+    template void RowContacts<S>::updateSlips(std::span<const Velocity<S>>, ConstraintRows<S>&) const;      \
+    template void RowContacts<S>::updateSlips(std::span<const Velocity<S>>, std::span<const std::uint32_t>, \
+                                              ConstraintRows<S>&) const;
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 

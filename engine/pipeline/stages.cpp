@@ -12,7 +12,7 @@
 namespace rigor::engine {
 namespace {
 
-/// Renews the biases of joints before an iteration, keeps its residual after it.
+/// Renews the biases of joints and of contacts that slide before an iteration, keeps its residual after it.
 template <class S>
 class StepMonitor final : public IterationMonitor<S> {
   public:
@@ -36,8 +36,11 @@ class StepMonitor final : public IterationMonitor<S> {
     }
     void before(std::span<const Velocity<S>> velocities, std::span<const std::uint32_t> blocks) override {
         change_ = joints_.updateBiases(bodies_, step_, velocities, rows_, blocks);
-        contacts_.updateSlips(velocities, rows_);
+        contacts_.updateSlips(velocities, blocks, rows_);
         ++updates_;
+    }
+    bool mayRenew(std::uint32_t block) const override {
+        return !isOfContact(rows_.blocks[block].kind) || contacts_.hasSlip(block);
     }
     /// True once the joint bias, re-linearised at the predicted end-of-step poses, has stopped changing.
     bool biasConverged() const {

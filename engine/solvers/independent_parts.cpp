@@ -77,17 +77,13 @@ void PartProblem<S>::load(const SolverInput<S>& whole, std::span<const std::uint
     std::uint32_t normal = 0;  // normal row of the last point; its moments follow
     for (const std::uint32_t k : blocks) {
         Block<S> block = whole.constraints.blocks[k];
-        const bool isContact = isOfContact(block.kind);
-        const bool isPoint = block.kind == BlockKind::Contact;
+        renews_ = renews_ || whole.monitor.mayRenew(k);
         for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
-            // Biases of friction rows follow the slip (ContactModel::updateSlips).
-            renews_ = renews_ || !isContact ||
-                      ((i > block.first || !isPoint) && whole.constraints.rows[i].bias != 0);
             rowOf_.push_back(i);
             rows_.rows.push_back(whole.constraints.rows[i]);
         }
         block.first = static_cast<std::uint32_t>(rows_.rows.size() - block.rows);
-        if (isPoint) normal = block.first;
+        if (block.kind == BlockKind::Contact) normal = block.first;
         if (block.kind == BlockKind::Moment) block.normal = normal;
         block.a = local(block.a);
         block.b = local(block.b);

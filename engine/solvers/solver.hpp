@@ -46,6 +46,11 @@ class IterationMonitor {
         (void)blocks;
         before(velocities);
     }
+    /// Whether before() may change the biases of a block.
+    virtual bool mayRenew(std::uint32_t block) const {
+        (void)block;
+        return true;
+    }
     /// `change` is the largest velocity error [m/s or rad/s] that the iteration removed from a row or block.
     /// True: good enough, stop.
     virtual bool after(std::span<const Velocity<S>> velocities, typename S::Real change) = 0;

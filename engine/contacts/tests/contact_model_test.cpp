@@ -4,6 +4,8 @@
 // The contact models by themselves, on a sphere that touches the ground at one point.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "engine/contacts/contact_model.hpp"
 #include "engine/solvers/tests/row_problem.hpp"
 #include "engine/solvers/wide/patch_solver.hpp"
@@ -75,6 +77,33 @@ TEST(RowContacts, FollowTheBodies) {
     velocities[1] = {Vec(3, 2, 0), Vec(0, 0, 5)};  // rolling adds nothing: the arm is along the normal
     model->advance(scene.contacts, velocities, 0.1, Tasks::one());
     EXPECT_DOUBLE_EQ(scene.contacts[0].points[0].separation, 0.2);
+}
+
+TEST(RowContacts, RenewTheSlipsOfTheBlocksThatAreNamed) {
+    BallOnGround scene(0.5);
+    scene.step.meanSlip = true;
+    scene.bodies.velocity[1].v = Vec(3, -1, 0);
+    const auto model = makeContactModel<Space3d>(ContactForm::Rows);
+    scene.begin(*model, true);
+    ASSERT_TRUE(model->hasSlip(0));
+    const auto biases = [&] {
+        const std::uint32_t first = scene.rows.blocks[0].first;
+        return Eigen::Vector2d(scene.rows.rows[first + 1].bias, scene.rows.rows[first + 2].bias);
+    };
+    std::vector<Velocity<Space3d>> velocities(2);
+    velocities[1].v = Vec(2, 0, 1);
+    const std::array<std::uint32_t, 1> block{0};
+    model->updateSlips(velocities, std::span<const std::uint32_t>(), scene.rows);
+    EXPECT_EQ(biases(), Eigen::Vector2d::Zero()) << "no block is named";
+    model->updateSlips(velocities, block, scene.rows);
+    const Eigen::Vector2d named = biases();
+    EXPECT_GT(named.norm(), 0.1);
+    model->updateSlips(velocities, scene.rows);
+    EXPECT_EQ(biases(), named);
+
+    scene.bodies.velocity[1].v = Vec(0, -1, 0);
+    scene.begin(*model, true);
+    EXPECT_FALSE(model->hasSlip(0)) << "a ball that does not slide";
 }
 
 /// Both models stop the sphere with the same impulse.

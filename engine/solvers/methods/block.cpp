@@ -112,12 +112,12 @@ class BlockGaussSeidel final : public Solver<S> {
                            [&](std::uint32_t k) { return isJoint(input.constraints.blocks[k]); });
     }
 
-    /// Renews the biases of joints in parts that are not solved yet.
+    /// Renews the biases of parts that are not solved yet.
     void renewBiases(const SolverInput<S>& input, int iteration) {
         if (iteration == 0 || parts_.count() == 1) return input.monitor.before(input.velocities);
         blocks_.clear();
         for (std::size_t group = 0; group + 1 < groups_.size(); ++group) {
-            if (solved_[parts_.partOf(group)] || !isJoint(input.constraints.blocks[groups_[group]])) continue;
+            if (solved_[parts_.partOf(group)]) continue;
             for (std::uint32_t k = groups_[group]; k < groups_[group + 1]; ++k) blocks_.push_back(k);
         }
         input.monitor.before(input.velocities, blocks_);
