@@ -3,7 +3,7 @@
 //
 // `rigor sweep` on a real Slurm: controller, node and munge on this machine, on the loopback interface alone. An array of
 // eight shards, of which one is killed and another is requeued, and a dependent merge. The merged run must be the
-// undisturbed one, row for row. Debian: apt install slurm-wlm munge.
+// undisturbed one, row for row. A study in shards has the tables of the whole study. Debian: apt install slurm-wlm munge.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -13,8 +13,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <optional>
 
 #include "cli/tests/program.hpp"
+#include "cli/tests/shared_study.hpp"
 #include "validation/results/store.hpp"
 #include "validation/runner/merge.hpp"
 #include "validation/runner/scratch_folder.hpp"
@@ -99,6 +101,11 @@ std::string output(const std::string& command) {
     return text;
 }
 
+std::string textOf(const fs::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
 bool happens(const std::function<bool()>& event, int seconds) {
     for (int i = 0; i < 5 * seconds; ++i) {
         if (event()) return true;
@@ -107,18 +114,40 @@ bool happens(const std::function<bool()>& event, int seconds) {
     return false;
 }
 
-TEST(Slurm, ASweepWithDisturbancesIsTheUndisturbedRun) {
-    if (geteuid() != 0 || !output("which slurmctld slurmd sbatch munged").ends_with("munged\n"))
-        GTEST_SKIP() << "needs root, and slurmctld, slurmd, sbatch and munged (Debian: slurm-wlm, munge)";
-    const validation::ScratchFolder scratch;
-    const fs::path sweep = scratch.path() / "sweep", local = scratch.path() / "local",
-                   temporary = scratch.path() / "tmp";
-    for (const fs::path& folder : {local, temporary}) fs::create_directories(folder);
-    setenv("RIGOR_LOCAL", local.c_str(), 1);
-    setenv("TMPDIR", temporary.c_str(), 1);  // The processes of this test are recognised by it.
-    const Slurm slurm(scratch.path() / "slurm");
-    ASSERT_TRUE(happens([] { return output("sinfo -h -o %T").starts_with("idle"); }, 30)) << output("sinfo");
+/// A cluster of this machine alone, and folders for its shards.
+class Sweep : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (geteuid() != 0 || !output("which slurmctld slurmd sbatch munged").ends_with("munged\n"))
+            GTEST_SKIP() << "needs root, and slurmctld, slurmd, sbatch and munged (Debian: slurm-wlm, munge)";
+        for (const fs::path& folder : {local, temporary}) fs::create_directories(folder);
+        setenv("RIGOR_LOCAL", local.c_str(), 1);
+        setenv("TMPDIR", temporary.c_str(), 1);  // The processes of this test are recognised by it.
+        slurm_.emplace(scratch_.path() / "slurm");
+        ASSERT_TRUE(happens([] { return output("sinfo -h -o %T").starts_with("idle"); }, 30))
+            << output("sinfo");
+    }
+    void TearDown() override {
+        unsetenv("RIGOR_LOCAL");
+        unsetenv("TMPDIR");
+    }
+    static bool ends() {
+        return happens([] { return output("squeue -h").empty(); }, 600);
+    }
+    std::string in(const std::string& name) const { return (scratch_.path() / name).string(); }
 
+  private:
+    const validation::ScratchFolder scratch_;
+
+  protected:
+    const fs::path sweep = scratch_.path() / "sweep", local = scratch_.path() / "local",
+                   temporary = scratch_.path() / "tmp";
+
+  private:
+    std::optional<Slurm> slurm_;
+};
+
+TEST_F(Sweep, WithDisturbancesIsTheUndisturbedRun) {
     const std::string what = "smoke --engines rigor,bullet";
     const auto submitted = rigor("sweep --shards " + std::to_string(kShards) + " --out " + sweep.string() +
                                  " --slurm --submit " + what);
@@ -135,13 +164,11 @@ TEST(Slurm, ASweepWithDisturbancesIsTheUndisturbedRun) {
     sleep(1);
     const std::string job = output("squeue -h -r -o '%A %K' | awk '$2 == 4 { print $1 }' | tr -d '\\n'");
     EXPECT_EQ(output("scontrol requeue " + job), "");
-    ASSERT_TRUE(happens([] { return output("squeue -h").empty(); }, 600)) << output("squeue");
+    ASSERT_TRUE(ends()) << output("squeue");
 
-    const auto whole =
-        rigor("validate smoke --engines rigor,bullet -q --out " + (scratch.path() / "whole").string());
+    const auto whole = rigor("validate smoke --engines rigor,bullet -q --out " + in("whole"));
     EXPECT_THAT(whole.code, testing::AnyOf(0, 1, 6)) << whole.out;
-    const auto merged = results::readRun(sweep / "run"),
-               expected = results::readRun(scratch.path() / "whole");
+    const auto merged = results::readRun(sweep / "run"), expected = results::readRun(in("whole"));
     EXPECT_FALSE(merged.finished.empty());
     ASSERT_EQ(merged.cases.size(), expected.cases.size());
     for (std::size_t i = 0; i < expected.cases.size(); ++i)
@@ -149,8 +176,19 @@ TEST(Slurm, ASweepWithDisturbancesIsTheUndisturbedRun) {
             << expected.cases[i].id;
     EXPECT_TRUE(fs::is_empty(local)) << "shards are moved when they are whole";
     EXPECT_TRUE(fs::exists(sweep / "run" / "index.html"));
-    unsetenv("RIGOR_LOCAL");
-    unsetenv("TMPDIR");
+}
+
+TEST_F(Sweep, OfAStudyHasItsTables) {
+    const std::string study = in("shared.json");
+    std::ofstream(study) << kSharedStudy;
+    const auto submitted =
+        rigor("sweep --shards 3 --out " + sweep.string() + " --study --slurm --submit " + study);
+    ASSERT_EQ(submitted.code, 0) << submitted.out;
+    ASSERT_TRUE(ends()) << output("squeue");
+    EXPECT_EQ(rigor("study " + study + " -q --out " + in("whole")).code, 0);
+    const std::string tables = textOf(sweep / "run" / "study.json");
+    ASSERT_NE(tables, "");
+    EXPECT_EQ(timeless(tables), timeless(textOf(in("whole/study.json"))));
 }
 
 }  // namespace

@@ -9,12 +9,15 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/tests/program.hpp"
+#include "cli/tests/shared_study.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using rigor::cli_test::kSharedStudy;
 using rigor::cli_test::rigor;
+using rigor::cli_test::timeless;
 
 fs::path writeStudy(const std::string& cureAtMost) {
     const auto file = fs::path(testing::TempDir()) / "my_study.json";
@@ -53,19 +56,6 @@ TEST(StudyCommand, RunsAFileAndKeepsAFolder) {
     const auto again = rigor("study " + study + " -q --json --resume --out " + run, false);
     EXPECT_EQ(json::parse(again.out).at("parts"), out.at("parts")) << "nothing is run a second time";
 }
-
-/// Tables without what differs from run to run.
-json timeless(const std::string& text) {
-    json parts = json::parse(text).at("parts");
-    for (json& part : parts)
-        for (json& row : part.at("rows")) row.at("metrics").erase("time.step");
-    return parts;
-}
-
-constexpr const char* kSharedStudy = R"({"rigor_study": 1, "name": "shared", "parts": [
-    {"name": "masses", "scenarios": ["slide_and_stop", "free_flight"], "dt": [0.01],
-     "metrics": ["position_final", "time.step"], "variants": ["rigor", "ode:preset=matched"],
-     "symmetries": ["mirror", "time_reversal"]}]})";
 
 /// An empty folder with the study of that text.
 fs::path folderWithStudy(const std::string& name, const char* text) {
