@@ -264,7 +264,7 @@ class RigorWorld final : public World, public StateSetting {
         for (const scenario::Body& body : scenario_.bodies) addBody(body);
         for (const scenario::Joint& joint : scenario_.joints) addJoint(joint);
         for (const scenario::Force& force : scenario_.forces)
-            std::visit([this](const auto& f) { addForce(f); }, force);
+            std::visit([this](const auto& f) { this->addForce(f); }, force);
     }
 
     /// The scenario's pair table, in which pairs that it does not name have sqrt(mu_a mu_b) and min(e_a,

@@ -247,7 +247,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         friction += impactSolver_.frictionImpulse();
         for (const std::uint32_t i : {a, b})
             if (world.isPaused(i)) bodies.invMass[i] = 0;
-        const bool inTime = goOn(world, a, t) & goOn(world, b, t);
+        const bool first = goOn(world, a, t), second = goOn(world, b, t), inTime = first && second;
         if (impulse + held > 0)
             events.push_back({bodies.id[a], bodies.id[b], shapes[hit.a].id, shapes[hit.b].id,
                               world.begin + hit.impact.exact,

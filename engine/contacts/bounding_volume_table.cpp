@@ -6,8 +6,11 @@ namespace rigor::engine {
 
 std::span<const AlgorithmEntry<BoundingVolume>> boundingVolumeTable() {
     static constexpr AlgorithmEntry<BoundingVolume> table[] = {
-#define ALGORITHM(name, volume, summary) {#name, BoundingVolume volume, summary},
+#define BRACED(...) \
+    { __VA_ARGS__ }
+#define ALGORITHM(name, volume, summary) {#name, BoundingVolume BRACED volume, summary},
 #include "engine/contacts/bounding_volumes.def"
+#undef BRACED
     };
     return table;
 }

@@ -59,10 +59,11 @@ struct alignas(64) Contact {
     }();
     Manifold<S> manifold;
     ManifoldCache<S> cache;  ///< data of the manifold choice, or the points of a cached manifold
-    alignas(S::dim == 3 ? 64 : alignof(Real)) PerPoint<Impulse> impulses;  ///< impulses of the last
-                                                                           ///< (sub-)step
-    PerPoint<Impulse> totals;                                              ///< sums over the last step
-    std::uint32_t shapeA = 0, shapeB = 0;                                  ///< dense indices
+    alignas(S::dim == 3 ? 64
+                        : alignof(PerPoint<Impulse>)) PerPoint<Impulse> impulses;  ///< impulses of the last
+                                                                                   ///< (sub-)step
+    PerPoint<Impulse> totals;              ///< sums over the last step
+    std::uint32_t shapeA = 0, shapeB = 0;  ///< dense indices
     std::uint32_t piece = 0xffffffffu;  ///< segment or triangle of the chain, mesh or field; none of others
     std::uint32_t firstRow = 0, blocks = 0;  ///< place in the rows of this step while rows are made
     PerPoint<Point> points;

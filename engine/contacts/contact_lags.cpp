@@ -52,18 +52,20 @@ void addLag(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Conta
 }
 
 template <class S>
-void RowContacts<S>::findLandings(const ContactList<S>& contacts) {
-    landings_.clear();
-    for (std::size_t k = 0; k < lags_.size(); ++k)
-        for (std::size_t i = 0; i < lags_[k].size(); ++i)
-            if (lags_[k][i].landing > 0) landings_.push_back({contacts[k].block[i], lags_[k][i].landing});
+void findLandings(const ContactList<S>& contacts, std::span<const RowLags<S>> lags,
+                  std::vector<LandingPoint<typename S::Real>>& landings) {
+    landings.clear();
+    for (std::size_t k = 0; k < lags.size(); ++k)
+        for (std::size_t i = 0; i < lags[k].size(); ++i)
+            if (lags[k][i].landing > 0) landings.push_back({contacts[k].block[i], lags[k][i].landing});
 }
 
 #define RIGOR_INSTANTIATE(S)                                                                             \
     template void placeWithLags<S>(const BodyArrays<S>&, Contact<S>&, RowLags<S>&);                      \
     template void addLag<S>(const BodyArrays<S>&, const ContactStep<S>&, const Contact<S>&, std::size_t, \
                             RowLag<S>&, const Block<S>&, Row<S>*);                                       \
-    template void RowContacts<S>::findLandings(const ContactList<S>&);
+    template void findLandings<S>(const ContactList<S>&, std::span<const RowLags<S>>,                    \
+                                  std::vector<LandingPoint<S::Real>>&);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 

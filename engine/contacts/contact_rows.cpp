@@ -272,7 +272,7 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
         }
     });
     findSlips(contacts, bodies, step, rows);
-    findLandings(contacts);
+    findLandings<S>(contacts, lags_, landings_);
 }
 
 template <class S>

@@ -48,8 +48,6 @@ class RowContacts final : public ContactModel<S> {
     void findSlips(const ContactList<S>& contacts, const BodyArrays<S>& bodies, const ContactStep<S>& step,
                    const ConstraintRows<S>& rows);
 
-    void findLandings(const ContactList<S>& contacts);
-
     ContactCounts counts_;
     IslandSize islands_ = IslandSize::Usual;
     /// A point that slid before the forces of the sub-step acted.
@@ -80,6 +78,11 @@ void placeWithLags(const BodyArrays<S>& bodies, Contact<S>& contact, RowLags<S>&
 template <class S>
 void addLag(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
             std::size_t index, RowLag<S>& lag, const Block<S>& block, Row<S>* rows);
+
+/// The points that land within the step, of contacts with the lags of the same index.
+template <class S>
+void findLandings(const ContactList<S>& contacts, std::span<const RowLags<S>> lags,
+                  std::vector<LandingPoint<typename S::Real>>& landings);
 
 /// Unit tangents that with n form a right-handed orthonormal frame; a function of n alone.
 template <class S>

@@ -253,6 +253,8 @@ bool ContactUpdate<S>::mayMeet(const Candidate<S>& candidate) const {
     return touched[a.body] || touched[b.body] || timeOfImpact<S>(A, B, motionTime).hit;
 }
 
-RIGOR_INSTANTIATE_CLASS(ContactUpdate)
+#define RIGOR_INSTANTIATE(S) template struct ContactUpdate<S>;
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

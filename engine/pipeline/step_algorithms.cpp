@@ -130,6 +130,8 @@ StepAlgorithms<S>::StepAlgorithms(const WorldDef<S>& def) {
         large = makeLargeMethod<S>(def);
 }
 
-RIGOR_INSTANTIATE_CLASS(StepAlgorithms)
+#define RIGOR_INSTANTIATE(S) template struct StepAlgorithms<S>;
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

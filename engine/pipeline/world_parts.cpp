@@ -142,6 +142,8 @@ void WorldParts<S>::wakeReachOf(std::uint32_t body) {
     wakeIslandOf(body);
 }
 
-RIGOR_INSTANTIATE_CLASS(WorldParts)
+#define RIGOR_INSTANTIATE(S) template struct WorldParts<S>;
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine
