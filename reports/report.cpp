@@ -2,9 +2,13 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "reports/report.hpp"
 
+#include <deque>
 #include <exception>
 #include <fstream>
+#include <future>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <set>
 
 #include "reports/encoding/data_files.hpp"
@@ -30,8 +34,6 @@ namespace rigor::report {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kTableCompression = 6;
-
 /// Result of `rigor study` beside the run, if it was one.
 std::optional<nlohmann::ordered_json> readStudy(const fs::path& file) {
     std::ifstream in(file);
@@ -55,8 +57,7 @@ std::size_t bytesOf(const results::TrajectoryFile& file) {
     return values * sizeof(double) + file.contacts.size() * sizeof(results::ContactSample);
 }
 
-/// The trajectories of a run. The files of one scenario are needed several times and are slow to open: small ones are
-/// read once, with all they have, and kept until the next scenario begins.
+/// The trajectories of a run. May be used by several threads; the library of the files by one at a time.
 class Trajectories {
   public:
     Trajectories(const results::Run& run, fs::path folder)
@@ -65,26 +66,17 @@ class Trajectories {
             if (!row.trajectoryFile.empty()) unread_[row.id] = row.trajectoryFile;
     }
 
+    fs::path pathOf(const results::CaseRow& row) const { return folder_ / row.trajectoryFile; }
     /// A lost or damaged file costs its curves, not the report; the reason is one of problems().
-    std::optional<results::TrajectoryFile> load(const results::CaseRow& row, bool withContacts) {
-        if (row.trajectoryFile.empty()) return std::nullopt;
-        if (const auto it = kept_.find(row.id); it != kept_.end()) return it->second;
+    std::optional<results::TrajectoryFile> read(const results::CaseRow& row, bool withContacts) {
+        const std::lock_guard lock(mutex_);
         unread_.erase(row.id);
-        const fs::path path = folder_ / row.trajectoryFile;
-        std::error_code error;
-        const bool isSmall = fs::file_size(path, error) <= kSmallFile && !error;
         try {
-            auto file = results::readTrajectory(path, withContacts || isSmall);
-            if (isSmall) keep(row.id, file);
-            return file;
+            return results::readTrajectory(pathOf(row), withContacts);
         } catch (const std::exception& problem) {
             problems_.insert(problem.what());
             return std::nullopt;
         }
-    }
-    void beginScenario() {
-        kept_.clear();
-        bytes_ = 0;
     }
     /// Trajectories of which no format needs the content (of derived runs, say) are checked all the same.
     void checkOthers() {
@@ -93,6 +85,30 @@ class Trajectories {
                 problems_.insert(problem);
     }
     const std::set<std::string>& problems() const { return problems_; }
+
+  private:
+    fs::path folder_;
+    std::mutex mutex_;  ///< lock of what follows, and of the library of the files
+    std::set<std::string> problems_;
+    std::map<std::string, std::string> unread_;  ///< files by case
+};
+
+/// The trajectories of one scenario, which are needed several times and are slow to open: small ones are read once, with
+/// all they have, and kept.
+class TrajectoriesOfScenario {
+  public:
+    explicit TrajectoriesOfScenario(Trajectories& all) : all_(all) {}
+
+    std::optional<results::TrajectoryFile> load(const results::CaseRow& row, bool withContacts) {
+        if (row.trajectoryFile.empty()) return std::nullopt;
+        const std::lock_guard lock(mutex_);
+        if (const auto it = kept_.find(row.id); it != kept_.end()) return it->second;
+        std::error_code error;
+        const bool isSmall = fs::file_size(all_.pathOf(row), error) <= kSmallFile && !error;
+        auto file = all_.read(row, withContacts || isSmall);
+        if (isSmall && file) keep(row.id, *file);
+        return file;
+    }
 
   private:
     static constexpr std::size_t kSmallFile = 1 << 20;   // [bytes]
@@ -105,9 +121,8 @@ class Trajectories {
         kept_.emplace(id, file);
     }
 
-    fs::path folder_;
-    std::set<std::string> problems_;
-    std::map<std::string, std::string> unread_;  ///< files by case
+    Trajectories& all_;
+    std::mutex mutex_;
     std::map<std::string, results::TrajectoryFile> kept_;
     std::size_t bytes_ = 0;
 };
@@ -142,11 +157,17 @@ class ReportFolder {
     }
     void writeCsv(const results::Run& run) {
         const bool isLarge = run.cases.size() > limits_.cases;
-        remove(isLarge ? "results.csv" : "results.csv.gz");
-        if (!isLarge) return write("results.csv", csvReport(run));
+        for (const char* name : {"results.csv", "fairness.csv"})
+            remove(name + std::string(isLarge ? "" : ".gz"));
+        if (!isLarge) {
+            write("results.csv", csvReport(run));
+            if (!run.fairness.empty()) write("fairness.csv", fairnessCsv(run));
+            return;
+        }
         GzipText compressed;
         csvReport(run, [&](std::string_view lines) { compressed.add(lines); });
         write("results.csv.gz", compressed.finish());
+        if (!run.fairness.empty()) write("fairness.csv.gz", gzip(fairnessCsv(run)));
     }
     void writeData(const std::string& name, const std::string& content) {
         write(fs::path("data") / (name + ".js"), dataFile(name, content));
@@ -155,15 +176,23 @@ class ReportFolder {
         write(fs::path("plots") / (plot.name + ".svg"), plot.svg);
         write(fs::path("plots") / (plot.name + ".csv"), plot.csv);
     }
-    void writeTable(const Table& table) {
+    /// `csvAlone`: neither Markdown nor LaTeX.
+    void writeTable(const Table& table, bool csvAlone) {
         const std::string name = (fs::path("tables") / table.name).string();
         const bool isLarge = table.rows.size() > limits_.tableRows;
-        for (const char* ending : {".csv", ".md", ".tex", ".csv.gz"})
-            if (isLarge != (ending == std::string(".csv.gz"))) remove(name + ending);
-        if (isLarge) return write(name + ".csv.gz", gzip(tableCsv(table), kTableCompression));
+        for (const char* ending : {".csv", ".md", ".tex", ".csv.gz"}) remove(name + ending);
+        if (isLarge) return write(name + ".csv.gz", gzip(tableCsv(table)));
         write(name + ".csv", tableCsv(table));
+        if (csvAlone) return;
         write(name + ".md", tableMarkdown(table));
         write(name + ".tex", tableLatex(table));
+    }
+
+    /// The same folder, into which nothing has been written.
+    ReportFolder withoutFiles() const { return {folder_, limits_}; }
+    /// Notes what was written through the other.
+    void add(const ReportFolder& other) {
+        written.insert(written.end(), other.written.begin(), other.written.end());
     }
 
     std::vector<fs::path> written;
@@ -173,22 +202,37 @@ class ReportFolder {
     ReportLimits limits_;
 };
 
-/// Writes what trajectories give: details and curves, the plot over time, the replays.
-void writeScenarios(const ViewModel& view, Trajectories& trajectories, ReportFolder& folder) {
+/// Details and curves of a scenario, and its plot over time.
+ReportFolder writeScenario(const ViewModel& view, std::size_t scenario, TrajectoriesOfScenario& trajectories,
+                           ReportFolder folder) {
     const TrajectoryLoader load = [&](const results::CaseRow& row) { return trajectories.load(row, false); };
-    const FullTrajectoryLoader loadAll = [&](const results::CaseRow& row) {
-        return trajectories.load(row, true);
-    };
-    const auto writeData = [&](const std::string& name, const std::string& content) {
-        folder.writeData(name, content);
+    folder.writeData("scenario-" + std::to_string(scenario), scenarioJson(view, scenario, load));
+    if (const auto plot = scenarioPlot(view, scenario, load)) folder.writePlot(*plot);
+    return folder;
+}
+
+/// Writes what trajectories give: details, curves and plots of scenarios, beside the replays, which have a budget
+/// together and are made in order.
+void writeScenarios(const ViewModel& view, Trajectories& trajectories, ReportFolder& folder) {
+    constexpr std::size_t kMostInWork = 4;
+    const ReportFolder empty = folder.withoutFiles();
+    std::deque<std::future<ReportFolder>> inWork;
+    const auto finishOldest = [&] {
+        std::future<ReportFolder> oldest = std::move(inWork.front());
+        inWork.pop_front();
+        folder.add(oldest.get());
     };
     ReplayBudget budget = replayBudget(view);
     for (std::size_t i = 0; i < view.run().scenarios.size(); ++i) {
-        trajectories.beginScenario();
-        writeData("scenario-" + std::to_string(i), scenarioJson(view, i, load));
-        if (const auto plot = scenarioPlot(view, i, load)) folder.writePlot(*plot);
-        replayFiles(view, i, loadAll, budget, writeData);
+        if (inWork.size() == kMostInWork) finishOldest();
+        const auto own = std::make_shared<TrajectoriesOfScenario>(trajectories);
+        inWork.push_back(std::async(std::launch::async,
+                                    [&view, &empty, own, i] { return writeScenario(view, i, *own, empty); }));
+        replayFiles(
+            view, i, [&](const results::CaseRow& row) { return own->load(row, true); }, budget,
+            [&](const std::string& name, const std::string& content) { folder.writeData(name, content); });
     }
+    while (!inWork.empty()) finishOldest();
 }
 
 }  // namespace
@@ -202,7 +246,6 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory, std::vector<std
     folder.writeCsv(run);
     folder.write("junit.xml", junitReport(run));
     if (!run.orders.empty()) folder.write("orders.csv", ordersCsv(run));
-    if (!run.fairness.empty()) folder.write("fairness.csv", fairnessCsv(run));
     const results::Run shown = withoutDerivedRuns(std::move(run));
     const ViewModel view(shown);
     const bool isLarge = shown.cases.size() > limits.casesInPage;
@@ -212,6 +255,7 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory, std::vector<std
     if (isLarge)
         for (std::size_t i = 0; i < caseFiles(view).size(); ++i)
             folder.writeData("cases-" + std::to_string(i), casesJson(view, i));
+    if (isLarge) folder.writeData("lists", listsJson(view));
     fs::create_directories(runDirectory / "plots");
     writeScenarios(view, trajectories, folder);
     trajectories.checkOthers();
@@ -222,7 +266,8 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory, std::vector<std
     if (fs::is_empty(runDirectory / "plots")) fs::remove(runDirectory / "plots");
     fs::create_directories(runDirectory / "tables" / "scenarios");
     for (const auto& entry : tableEntries())
-        for (const auto& table : entry.make(view)) folder.writeTable(table);
+        for (const auto& table : entry.make(view))
+            folder.writeTable(table, shown.cases.size() > limits.cases && table.ofScenario);
     if (problems != nullptr) problems->assign(trajectories.problems().begin(), trajectories.problems().end());
     return folder.written;
 }

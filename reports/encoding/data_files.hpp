@@ -12,7 +12,7 @@ namespace rigor::report {
 
 std::string base64(std::string_view bytes);
 /// `level`: zlib's, 1 (fast) to 9 (small). Throws std::runtime_error.
-std::string gzip(std::string_view bytes, int level = 9);
+std::string gzip(std::string_view bytes, int level = 6);
 /// The text of data/<name>.js. `name`: letters, digits, '-' and '_' alone. Throws std::invalid_argument for
 /// others.
 std::string dataFile(std::string_view name, std::string_view content);

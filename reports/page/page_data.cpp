@@ -350,6 +350,15 @@ Json gatheredLedger(const ViewModel& view) {
     return list;
 }
 
+bool isAudited(const results::Run& run) {
+    return std::any_of(run.cases.begin(), run.cases.end(),
+                       [](const auto& row) { return !row.audit.empty(); });
+}
+
+Json lists(const ViewModel& view) {
+    return {{"audit", gatheredAudit(view.run())}, {"ledger", gatheredLedger(view)}};
+}
+
 // ---- curves ----
 
 Json packed(const std::vector<double>& values, const std::vector<std::size_t>& at) {
@@ -408,14 +417,14 @@ std::vector<std::size_t> sampledIndices(const std::vector<double>& values) {
     return finite;
 }
 
-Json seriesJson(const results::TrajectoryFile& file) {
+Json seriesJson(const results::TrajectoryFile& file, std::size_t points) {
     Json list = Json::array();
     std::map<std::string, std::size_t> subjects;
     for (const auto& series : file.series) {
         const auto values = column(series.channel, 0, file.times.size());
         if (!anyFinite(values) || subjects[series.name]++ >= kMostSubjects) continue;
         const auto at =
-            series.name == "normal_error" ? sampledIndices(values) : outlineIndices(values, kCurvePoints);
+            series.name == "normal_error" ? sampledIndices(values) : outlineIndices(values, points);
         Json entry{{"name", series.name}, {"subject", series.subject}, {"unit", series.channel.unit}};
         if (at.size() < file.times.size()) entry["t"] = packed(file.times, at);
         entry["y"] = packed(values, at);
@@ -424,16 +433,16 @@ Json seriesJson(const results::TrajectoryFile& file) {
     return list;
 }
 
-Json curvesJson(const results::ScenarioRow& scenario, const results::TrajectoryFile& file,
-                bool withReference) {
+Json curvesJson(const results::ScenarioRow& scenario, const results::TrajectoryFile& file, bool withReference,
+                std::size_t points) {
     const std::size_t rows = file.times.size();
-    const auto at = evenIndices(rows, kCurvePoints);
+    const auto at = evenIndices(rows, points);
     const auto names = shownBodies(scenario, file);
     Json out{{"samples", rows}, {"t", packed(file.times, at)}};
-    if (rows <= kCurvePoints) out["all"] = true;
+    if (rows <= points) out["all"] = true;
     out["bodies"] = bodiesJson(file.bodies, names, scenario.dimension, rows, at);
     if (withReference) out["reference"] = bodiesJson(file.reference, names, scenario.dimension, rows, at);
-    out["series"] = seriesJson(file);
+    out["series"] = seriesJson(file, points);
     return out;
 }
 
@@ -530,14 +539,21 @@ std::string overviewJson(const ViewModel& view, CasesOfPage cases) {
                   {"overall", mechanismJson(view.overall())},
                   {"costs", costsJson(view)},
                   {"insertionOrders", insertionOrdersJson(view)},
-                  {"audit", gatheredAudit(run)},
-                  {"ledger", gatheredLedger(view)}};
+                  {"audited", isAudited(run)},
+                  {"listsBeside", cases == CasesOfPage::Beside}};
+    overview.update(cases == CasesOfPage::Beside ? Json{{"audit", Json::array()}, {"ledger", Json::array()}}
+                                                 : lists(view));
     addCaseFacts(view, overview);
     return text(overview);
 }
 
+std::string listsJson(const ViewModel& view) {
+    return text(lists(view));
+}
+
 std::string scenarioJson(const ViewModel& view, std::size_t index, const TrajectoryLoader& load) {
     const auto& scenario = view.run().scenarios[index];
+    const std::size_t points = curvePoints(view.run().cases.size());
     Json cases = Json::array();
     std::vector<double> withReference;  // the exact states are the same for every engine at one time step
     for (std::size_t c = 0; c < view.columns().size(); ++c)
@@ -571,7 +587,7 @@ std::string scenarioJson(const ViewModel& view, std::size_t index, const Traject
                 const bool reference =
                     first && !file->reference.empty() && row->outcome == results::Outcome::Completed;
                 if (reference) withReference.push_back(row->dt);
-                entry["curves"] = curvesJson(scenario, *file, reference);
+                entry["curves"] = curvesJson(scenario, *file, reference, points);
             }
             cases.push_back(std::move(entry));
         }

@@ -13,8 +13,8 @@
 
 namespace rigor::report {
 
-/// Place of the cases of the overview: in the page, or, for a large run, in files beside it that it loads when they are
-/// looked at.
+/// Place of the cases of the overview, of the audit and of the parity ledger: in the page, or, for a large run, in files
+/// beside it that it loads when they are looked at.
 enum class CasesOfPage { Inside, Beside };
 
 /// The data behind the page's overview, which is in the page, and behind the page of one scenario, which
@@ -24,6 +24,8 @@ std::string overviewJson(const ViewModel& view, CasesOfPage cases = CasesOfPage:
 std::vector<std::size_t> caseFiles(const ViewModel& view);
 /// Content of data/cases-<file>.js: for each scenario of the file an array of its cases, as they would stand in the page.
 std::string casesJson(const ViewModel& view, std::size_t file);
+/// Content of data/lists.js of CasesOfPage::Beside: the audit and the parity ledger over all scenarios.
+std::string listsJson(const ViewModel& view);
 std::string scenarioJson(const ViewModel& view, std::size_t scenario, const TrajectoryLoader& load);
 
 }  // namespace rigor::report

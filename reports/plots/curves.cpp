@@ -11,6 +11,10 @@
 
 namespace rigor::report {
 
+std::size_t curvePoints(std::size_t cases, std::size_t most, std::size_t fewest) {
+    return std::clamp(most * kCasesOfWholeCurves / std::max(cases, std::size_t{1}), fewest, most);
+}
+
 std::vector<std::size_t> evenIndices(std::size_t count, std::size_t most) {
     std::vector<std::size_t> out;
     if (count <= most || most < 2) {

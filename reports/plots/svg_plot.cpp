@@ -251,6 +251,7 @@ std::optional<NamedPlot> scenarioPlot(const ViewModel& view, std::size_t index,
     const auto& scenario = view.run().scenarios[index];
     std::string name = "position_error";
     Plot plot;
+    const std::size_t points = curvePoints(view.run().cases.size(), kPlotPoints, kFewestPlotPoints);
     for (std::size_t c = 0; c < view.columns().size(); ++c) {
         const auto& cases = view.cell(index, c).cases;
         if (cases.empty()) continue;
@@ -261,7 +262,7 @@ std::optional<NamedPlot> scenarioPlot(const ViewModel& view, std::size_t index,
         if (!series) continue;
         const auto& column = view.columns()[c];
         PlotLine line{column.label, colourOf(view, column), column.dash, {}, {}};
-        for (const std::size_t i : outlineIndices(series->channel.values, 4 * kCurvePoints)) {
+        for (const std::size_t i : outlineIndices(series->channel.values, points)) {
             line.x.push_back(file->times[i]);
             line.y.push_back(series->channel.values[i]);
         }

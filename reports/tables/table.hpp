@@ -48,6 +48,7 @@ struct Table {
     std::string caption;  ///< one line: what it says and how to read it
     std::vector<TableColumn> columns;
     std::vector<std::vector<TableCell>> rows;  ///< rows with as many cells as columns
+    bool ofScenario = false;  ///< Its rows belong to one scenario: a large run has thousands of such tables.
 };
 
 /// RFC 4180 with a header line. A Judged column "x" becomes "x", "x verdict", "x bound".

@@ -158,7 +158,8 @@ std::vector<Table> metricsOfScenarios(const ViewModel& view) {
         Table table{"scenarios/" + fileNamePart(scenario.name),
                     scenario.name + ": every metric of the whole scene, with verdict and bound",
                     {{"dt", ColumnKind::TimeStep, "s"}, {"metric"}, {"kind"}, {"unit"}},
-                    {}};
+                    {},
+                    true};
         std::map<std::pair<double, std::string>, std::vector<TableCell>> rows;
         std::vector<std::pair<double, std::string>> order;
         for (std::size_t c = 0; c < view.columns().size(); ++c) {

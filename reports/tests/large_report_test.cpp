@@ -12,6 +12,7 @@
 #include "reports/encoding/data_files.hpp"
 #include "reports/encoding/gzip_text.hpp"
 #include "reports/page/page_data.hpp"
+#include "reports/plots/curves.hpp"
 #include "reports/replay/data.hpp"
 #include "reports/report.hpp"
 #include "reports/tables/csv.hpp"
@@ -91,6 +92,12 @@ TEST_F(LargeReport, HoldsTheSameTextsCompressed) {
     EXPECT_TRUE(has("tables/scoreboard.md")) << "it has one row";
     EXPECT_FALSE(has("tables/scoreboard.csv.gz"));
 
+    writeReports(folder_, nullptr, {.cases = run_.cases.size() - 1});
+    const std::string scenario = "tables/scenarios/" + run_.scenarios.front().name;
+    EXPECT_TRUE(has((scenario + ".csv").c_str()));
+    EXPECT_FALSE(has((scenario + ".md").c_str()));
+    EXPECT_TRUE(has("tables/timing.md"));
+
     writeReports(folder_, nullptr, {.cases = run_.cases.size(), .tableRows = 5});
     EXPECT_EQ(textOf("results.csv"), csv);
     EXPECT_FALSE(has("results.csv.gz"));
@@ -99,9 +106,11 @@ TEST_F(LargeReport, HoldsTheSameTextsCompressed) {
 TEST_F(LargeReport, HasItsCasesBesideThePage) {
     writeReports(folder_, nullptr, {.casesInPage = 1});
     EXPECT_TRUE(has("data/cases-0.js"));
+    EXPECT_TRUE(has("data/lists.js"));
     const std::size_t small = textOf("index.html").size();
     writeReports(folder_);
     EXPECT_FALSE(has("data/cases-0.js"));
+    EXPECT_FALSE(has("data/lists.js"));
     EXPECT_GT(textOf("index.html").size(), small + 1000 * run_.cases.size());
 }
 
@@ -128,8 +137,24 @@ TEST(LargeRuns, HaveTheSameCasesInFiles) {
     EXPECT_EQ(scenario, run.scenarios.size());
     for (const char* fact : {"redCases", "timed", "touching", "red", "grades"})
         EXPECT_EQ(part.at(fact), whole.at(fact)) << fact;
+    const json lists = json::parse(listsJson(view));
+    for (const char* list : {"audit", "ledger"}) {
+        EXPECT_EQ(lists.at(list), whole.at(list)) << list;
+        EXPECT_TRUE(part.at(list).empty()) << list;
+    }
+    EXPECT_FALSE(whole.at("ledger").empty());
+    EXPECT_EQ(part.at("audited"), whole.at("audited"));
+    EXPECT_EQ(whole.at("audited"), !whole.at("audit").empty());
     EXPECT_EQ(whole.at("redCases").size(), 6u);
     EXPECT_TRUE(whole.at("timed"));
+}
+
+/// The curves of a run have a budget together, and no curve is left without an outline.
+TEST(LargeRuns, HaveFewerPointsOfEachCurve) {
+    EXPECT_EQ(curvePoints(0), kCurvePoints);
+    EXPECT_EQ(curvePoints(kCasesOfWholeCurves), kCurvePoints);
+    EXPECT_EQ(curvePoints(2 * kCasesOfWholeCurves), kCurvePoints / 2);
+    EXPECT_EQ(curvePoints(10000000), kFewestCurvePoints);
 }
 
 /// All replays of a run have a budget together.

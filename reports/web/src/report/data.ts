@@ -276,8 +276,14 @@ export interface GatheredLedger extends LedgerLine {
   scenarios: string[];
 }
 
+/** Lists over all scenarios. */
+export interface RunLists {
+  audit: { scenario: string; rows: Audit[] }[];
+  ledger: GatheredLedger[];
+}
+
 /** Content of run-data: the overview. */
-export interface Run {
+export interface Run extends RunLists {
   single?: string; // a page of this scenario alone, in one file
   suite: string;
   title: string; // the suite, or the first of the scenarios named
@@ -306,8 +312,8 @@ export interface Run {
   overall: Mechanism;
   costs?: StepCost[]; // costs by column
   insertionOrders?: { heading: string; rows: OrderDependent[] } | null; // null: every case in one order
-  audit: { scenario: string; rows: Audit[] }[];
-  ledger: GatheredLedger[];
+  audited: boolean; // the audit has rows
+  listsBeside?: boolean; // a large run: data/lists.js has what RunLists have, and the lists here are empty
 }
 
 /** Timing of `rigor bench` as reports/tables/bench.cpp writes it. Times in seconds an operation. */

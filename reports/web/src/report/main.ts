@@ -13,7 +13,7 @@ import './print.css';
 import { el } from '../common/elements.ts';
 import { drawAllPlots, dropPlots } from './charts/live_plots.ts';
 import { enginePage } from './engine/page.ts';
-import { loadCases } from './loading.ts';
+import { loadCases, loadLists } from './loading.ts';
 import { filtersOf } from './overview/filters.ts';
 import { tabOf, tabs } from './overview/page.ts';
 import { run, scenarioLink } from './run.ts';
@@ -44,10 +44,14 @@ function partsOf(hash: string): { path: string; anchor: string; query: URLSearch
   return { path: `#${tabOf(anchor).id}`, anchor, query: new URLSearchParams(query) };
 }
 
-/** The section that `make` makes once the cases are there, or the reason why they are not. */
-async function withCases(id: string, make: () => HTMLElement | null): Promise<HTMLElement | null> {
+/** The section that `make` makes once what it needs is there, or the reason why it is not. */
+async function withData(
+  { id, cases, lists }: { id: string; cases?: boolean; lists?: boolean },
+  make: () => HTMLElement | null,
+): Promise<HTMLElement | null> {
   try {
-    await loadCases();
+    if (cases) await loadCases();
+    if (lists) await loadLists();
   } catch (error) {
     return panel(id, 'Nothing to show', el('p', null, (error as Error).message));
   }
@@ -59,9 +63,7 @@ async function pageOf(path: string, query: URLSearchParams): Promise<Page> {
   if (kind === undefined || name === undefined) {
     const tab = tabOf(path.slice(1));
     if (tab.id === 'scoreboard' && query.size > 0) filtersOf(query);
-    const [first, ...more] = tab.sections.map(
-      (section) => () => (section.cases ? withCases(section.id, section.make) : Promise.resolve(section.make())),
-    );
+    const [first, ...more] = tab.sections.map((section) => () => withData(section, section.make));
     const node = (await first?.()) ?? null;
     const nodes = node ? [node] : [];
     if (!node?.querySelector('h1')) nodes.unshift(el('h1', { class: 'read-aloud' }, tab.title));
@@ -70,7 +72,7 @@ async function pageOf(path: string, query: URLSearchParams): Promise<Page> {
   const title = decodeURIComponent(name);
   if (kind === 'engine') {
     let nodes: HTMLElement[] = [];
-    const sorry = await withCases('missing', () => {
+    const sorry = await withData({ id: 'missing', cases: true, lists: true }, () => {
       nodes = enginePage(title);
       return null;
     });

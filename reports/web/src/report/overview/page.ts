@@ -21,7 +21,8 @@ interface OverviewSection {
   id: string; // id of its element
   make: () => HTMLElement | null;
   has?: () => boolean; // false: this run has nothing for it
-  cases?: boolean; // it needs the cases, which in a large run stand beside the page
+  cases?: boolean; // it needs the cases, which in a large run stand beside the page,
+  lists?: boolean; // it needs the audit and the parity ledger, which stand there too
 }
 
 export interface Tab {
@@ -74,10 +75,14 @@ const all: Tab[] = [
     title: 'Contacts',
     sections: [
       { id: 'in-run', make: contactsActedUpon, has: hasOverlaps, cases: true },
-      { id: 'audit', make: contactQueries, has: () => run.audit.length > 0, cases: true },
+      { id: 'audit', make: contactQueries, has: () => run.audited, cases: true, lists: true },
     ],
   },
-  { id: 'ledger', title: 'Parity ledger', sections: [{ id: 'ledger', make: ledgerSummary, has: hasCases }] },
+  {
+    id: 'ledger',
+    title: 'Parity ledger',
+    sections: [{ id: 'ledger', make: ledgerSummary, has: hasCases, lists: true }],
+  },
   {
     id: 'method',
     title: 'Method',

@@ -7,6 +7,7 @@
 import { loadText } from '../../common/data_files.ts';
 import { saveText } from '../../common/download.ts';
 import type { Run } from '../data.ts';
+import { loadLists } from '../loading.ts';
 import { run } from '../run.ts';
 import type { Context } from './context.ts';
 
@@ -29,6 +30,7 @@ export function runOfOne(whole: Run, name: string): Run {
     costs: [],
     insertionOrders: null,
     caseFiles: null,
+    listsBeside: false,
     redCases: [],
     audit: whole.audit.filter((a) => a.scenario === name),
     bench: null,
@@ -44,6 +46,7 @@ export async function singleFile({ scenario, index, data }: Context): Promise<st
   const style = [...document.querySelectorAll('style')].map((s) => s.textContent ?? '').join('\n');
   const code = document.querySelector<HTMLScriptElement>('script[nonce]');
   const policy = document.querySelector('meta[http-equiv]')?.getAttribute('content') ?? '';
+  await loadLists();
   const parts = [await dataOf(`scenario-${index}`, 'scenario-0')];
   const steps = new Set(data.cases.map((c) => c.dt)).size;
   for (let j = 0; j < steps; ++j)
