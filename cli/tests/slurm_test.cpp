@@ -17,6 +17,7 @@
 
 #include "cli/tests/program.hpp"
 #include "cli/tests/shared_study.hpp"
+#include "validation/results/files.hpp"
 #include "validation/results/store.hpp"
 #include "validation/runner/merge.hpp"
 #include "validation/runner/scratch_folder.hpp"
@@ -101,11 +102,6 @@ std::string output(const std::string& command) {
     return text;
 }
 
-std::string textOf(const fs::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 bool happens(const std::function<bool()>& event, int seconds) {
     for (int i = 0; i < 5 * seconds; ++i) {
         if (event()) return true;
@@ -186,9 +182,9 @@ TEST_F(Sweep, OfAStudyHasItsTables) {
     ASSERT_EQ(submitted.code, 0) << submitted.out;
     ASSERT_TRUE(ends()) << output("squeue");
     EXPECT_EQ(rigor("study " + study + " -q --out " + in("whole")).code, 0);
-    const std::string tables = textOf(sweep / "run" / "study.json");
+    const std::string tables = results::readFile(sweep / "run" / "study.json");
     ASSERT_NE(tables, "");
-    EXPECT_EQ(timeless(tables), timeless(textOf(in("whole/study.json"))));
+    EXPECT_EQ(timeless(tables), timeless(results::readFile(in("whole/study.json"))));
 }
 
 }  // namespace

@@ -539,8 +539,7 @@ std::string overviewJson(const ViewModel& view, CasesOfPage cases) {
                   {"overall", mechanismJson(view.overall())},
                   {"costs", costsJson(view)},
                   {"insertionOrders", insertionOrdersJson(view)},
-                  {"audited", isAudited(run)},
-                  {"listsBeside", cases == CasesOfPage::Beside}};
+                  {"audited", isAudited(run)}};
     overview.update(cases == CasesOfPage::Beside ? Json{{"audit", Json::array()}, {"ledger", Json::array()}}
                                                  : lists(view));
     addCaseFacts(view, overview);

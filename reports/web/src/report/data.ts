@@ -298,7 +298,8 @@ export interface Run extends RunLists {
   columns: Column[];
   engines: Engine[];
   scenarios: Scenario[];
-  caseFiles?: number[] | null; // a large run: the first scenario of each data/cases-<n>.js, which have the cases
+  caseFiles?: number[] | null; // a large run: the first scenario of each data/cases-<n>.js, which have the cases;
+  // the lists of RunLists are empty here then, and in data/lists.js
   redCases: { scenario: string; spec: string; dt: number }[]; // the first ones
   timed: boolean; // some case has times
   touching: boolean; // some case had contacts that were audited
@@ -313,7 +314,6 @@ export interface Run extends RunLists {
   costs?: StepCost[]; // costs by column
   insertionOrders?: { heading: string; rows: OrderDependent[] } | null; // null: every case in one order
   audited: boolean; // the audit has rows
-  listsBeside?: boolean; // a large run: data/lists.js has what RunLists have, and the lists here are empty
 }
 
 /** Timing of `rigor bench` as reports/tables/bench.cpp writes it. Times in seconds an operation. */

@@ -31,7 +31,7 @@ let lists: Promise<void> | undefined;
 
 /** Loads the audit and the parity ledger of all scenarios. Rejects when the file is missing or damaged. */
 export function loadLists(): Promise<void> {
-  if (!run.listsBeside) return Promise.resolve();
+  if (!run.caseFiles) return Promise.resolve();
   lists ??= loadJsonOnce<RunLists>('lists').then((found) => void Object.assign(run, found));
   lists.catch(() => {
     lists = undefined;

@@ -30,7 +30,6 @@ export function runOfOne(whole: Run, name: string): Run {
     costs: [],
     insertionOrders: null,
     caseFiles: null,
-    listsBeside: false,
     redCases: [],
     audit: whole.audit.filter((a) => a.scenario === name),
     bench: null,
