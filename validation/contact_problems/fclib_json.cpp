@@ -4,9 +4,11 @@
 // Contact problems as JSON: {"form": "local", "dim", "nc", "mu", "q", "W"} or {"form": "global", ..., "f",
 // "w", "M", "H"}, "solution": {"r"}; a matrix is {"n": [rows, columns], "rows", "cols", "vals"}, triplets
 // from 0.
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "validation/contact_problems/problem.hpp"
 
@@ -15,14 +17,30 @@ namespace {
 
 using nlohmann::json;
 
+/// An int of the file; the JSON library would convert a number that no int can hold without a word.
+int integerFrom(const json& j, const std::string& key) {
+    const bool isInt = j.is_number_unsigned()  ? std::in_range<int>(j.get<std::uint64_t>())
+                       : j.is_number_integer() ? std::in_range<int>(j.get<std::int64_t>())
+                                               : false;
+    if (!isInt) throw adapter::BadInput(key + ": found " + j.dump() + ", expected an integer");
+    return j.get<int>();
+}
+
+std::vector<int> integers(const json& j, const char* key) {
+    std::vector<int> values;
+    for (const json& value : j.at(key)) values.push_back(integerFrom(value, key));
+    return values;
+}
+
 SparseMatrix matrixFrom(const json& j) {
-    const auto rows = j.at("rows").get<std::vector<int>>(), columns = j.at("cols").get<std::vector<int>>();
+    const auto rows = integers(j, "rows"), columns = integers(j, "cols");
     const auto values = j.at("vals").get<std::vector<double>>();
     if (rows.size() != values.size() || columns.size() != values.size())
         throw adapter::BadInput("rows, cols and vals differ in length");
     std::vector<Triplet> entries;
     for (std::size_t k = 0; k < values.size(); ++k) entries.push_back({rows[k], columns[k], values[k]});
-    return fromTriplets(j.at("n").at(0), j.at("n").at(1), std::move(entries));
+    return fromTriplets(integerFrom(j.at("n").at(0), "n"), integerFrom(j.at("n").at(1), "n"),
+                        std::move(entries));
 }
 
 std::vector<double> numbers(const json& j, const char* key) {
@@ -34,7 +52,7 @@ ExportedProblem fromJson(const json& j) {
     ContactProblem& p = exported.problem;
     exported.title = j.value("name", "");
     exported.description = j.value("source", "");
-    p.dimension = j.at("dim");
+    p.dimension = integerFrom(j.at("dim"), "dim");
     p.mu = numbers(j, "mu");
     const std::string form = j.at("form");
     if (form != "local" && form != "global")

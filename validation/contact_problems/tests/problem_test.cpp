@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "validation/contact_problems/tests/small_problems.hpp"
@@ -199,6 +200,11 @@ TEST(Files, WhatIsWrongIsSaid) {
     EXPECT_THAT(problemOf(R"({"form": "local", "dim": 3, "mu": [-1], "q": [1, 2, 3], )" + W + "}"),
                 HasSubstr("mu[0] has -1.000000, expected no less than 0"));
     EXPECT_THAT(problemOf(R"({"form": "mixed", "dim": 3, "mu": [1]})"), HasSubstr("\"local\" or \"global\""));
+    for (const char* value : {"1e128", "2.5", "3000000000", "-3000000000", "18446744073709551615", "\"3\""})
+        EXPECT_THAT(problemOf(R"({"form": "local", "dim": )" + std::string(value) + "}"),
+                    HasSubstr("dim: found " + nlohmann::json::parse(value).dump() + ", expected an integer"));
+    const std::string entry = R"("q": [1], "W": {"n": [1, 1], "cols": [0], "vals": [1], "rows": [)";
+    EXPECT_THAT(problemOf(head + entry + "1e20]}}"), HasSubstr("rows: found 1e+20, expected an integer"));
     EXPECT_THAT(problemOf("nothing"), HasSubstr("parse error"));
     const std::string M =
         R"("f": [1], "w": [0, 0, 0], "H": {"n": [1, 3], "rows": [0], "cols": [0], "vals": [1]},
