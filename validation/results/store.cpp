@@ -87,23 +87,26 @@ void writeManifest(const fs::path& directory, const Run& run) {
                 manifest.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-/// Error that a new file in the folder of the store meets; 0: none.
+/// Error that a new file with some content meets in the folder of the store; 0: none.
 int errorOfNewFile(const fs::path& store) {
     fs::path probe = store;
     probe += ".probe";
     const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
     if (file < 0) return errno;
+    const std::string content(4096, ' ');
+    const int code = write(file, content.data(), content.size()) < 0 || fsync(file) != 0 ? errno : 0;
     close(file);
     std::error_code ignored;
     fs::remove(probe, ignored);
-    return 0;
+    return code;
 }
 
-/// An error of SQLite as one of the environment, with the errno of the system call behind it. If SQLite cannot make its
-/// journal it looks for an old one, and reports that there is none.
+/// An error of SQLite as one of the environment, with the errno of the system call behind it. SQLite does not always know
+/// that: if it cannot make its journal it looks for an old one, and reports that there is none; what fails when it takes
+/// a transaction back has no errno. Then a file of our own is tried.
 EnvironmentError storeError(const fs::path& file, const SQLite::Exception& error, int systemCode) {
     int code = error.getErrorCode() == SQLITE_FULL ? ENOSPC : systemCode;
-    if (error.getErrorCode() == SQLITE_CANTOPEN)
+    if (error.getErrorCode() == SQLITE_CANTOPEN || code == 0)
         if (const int found = errorOfNewFile(file); found != 0) code = found;
     return EnvironmentError(file, std::string("cannot be written: ") + error.what(), code);
 }
