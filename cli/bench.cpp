@@ -290,6 +290,7 @@ int bench(const BenchArguments& a) {
         interrupted);
     if (live && !a.quiet) std::fprintf(stderr, "\r\033[K");
     if (interrupted) return interruptedAt(a, options);
+    releaseInterrupts();
     const bool slower = baseline && compareWithBaseline(a, *baseline, run);
     report::writeReports(options.directory);
     if (a.json) {

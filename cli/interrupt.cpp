@@ -18,4 +18,8 @@ const std::atomic<bool>& catchInterrupts(std::initializer_list<int> signals) {
     return caught;
 }
 
+void releaseInterrupts(std::initializer_list<int> signals) {
+    for (const int signal : signals) std::signal(signal, SIG_DFL);
+}
+
 }  // namespace rigor::cli

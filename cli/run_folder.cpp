@@ -4,10 +4,11 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <ctime>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "validation/results/store.hpp"
 
@@ -59,17 +60,16 @@ void prepareRunFolder(const fs::path& directory, bool resume) {
 }
 
 void checkResumed(const fs::path& directory, const std::vector<validation::CasePlan>& plan) {
-    results::Run stored;
+    results::RunOutline stored;
     try {
-        stored = results::readRun(directory);
+        stored = results::readOutline(directory);
     } catch (const std::exception&) {
         return;  // killed before anything was stored; the runner judges the rest
     }
+    std::set<std::pair<std::string, std::string>> planned;
+    for (const auto& c : plan) planned.emplace(c.scenario.name, c.spec.text());
     for (const auto& row : stored.cases) {
-        const bool planned = std::any_of(plan.begin(), plan.end(), [&](const auto& c) {
-            return c.scenario.name == row.scenario && c.spec.text() == row.spec;
-        });
-        if (!planned)
+        if (!planned.contains({row.scenario, row.spec}))
             throw std::invalid_argument(
                 "--resume: '" + directory.string() + "' holds " + row.scenario + " on " + row.spec +
                 ", which this command does not request; it was started by: " + stored.command);

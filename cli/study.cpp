@@ -55,9 +55,12 @@ std::optional<results::Run> runInterruptibly(const StudyArguments& a, const vali
     auto run = orStopped(line, again, [&] {
         return work([&](const validation::Progress& p) { line.update(p); }, interrupted);
     });
-    if (!interrupted) return run;
+    if (!interrupted) {
+        releaseInterrupts();
+        return run;
+    }
     std::fprintf(stderr, "Interrupted: %zu of %zu cases are stored. Go on with --resume --out %s\n",
-                 run.cases.size(), cases, options.directory.c_str());
+                 results::readOutline(options.directory).cases.size(), cases, options.directory.c_str());
     return std::nullopt;
 }
 

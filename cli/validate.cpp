@@ -190,7 +190,7 @@ void printResult(const results::Run& run, const fs::path& directory, bool json) 
 std::vector<std::string> resumedWhat(const ValidateArguments& arguments) {
     const fs::path directory = chooseRunFolder(arguments.out, arguments.resume, "");
     prepareRunFolder(directory, true);
-    std::istringstream words(results::readRun(directory).suite);
+    std::istringstream words(results::readOutline(directory).suite);
     return {std::istream_iterator<std::string>(words), {}};
 }
 
@@ -237,10 +237,11 @@ int validate(const ValidateArguments& given) {
             plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
     });
     if (interrupted) {
-        std::fprintf(stderr, "Interrupted: %zu of %lld cases are stored. Go on with: %s\n", run.cases.size(),
-                     static_cast<long long>(run.plannedCases), again.c_str());
+        std::fprintf(stderr, "Interrupted: %zu of %zu cases are stored. Go on with: %s\n",
+                     results::readOutline(options.directory).cases.size(), plan.size(), again.c_str());
         return kInterrupted;
     }
+    releaseInterrupts();
     if (!options.shard) report::writeReports(options.directory);  // `rigor merge` writes one for all shards
     if (options.shard && !arguments.json)
         std::printf("Shard %s: %zu cases are stored in %s\n", arguments.shard.c_str(), run.cases.size(),

@@ -197,10 +197,11 @@ std::vector<std::string> RunWriter::finishedCases() const {
 
 void RunWriter::keepOnly(const std::vector<std::string>& ids) {
     const std::set<std::string> wanted(ids.begin(), ids.end());
+    std::vector<std::string> others = finishedCases();
+    std::erase_if(others, [&](const std::string& id) { return wanted.contains(id); });
     impl_->write([&] {
         SQLite::Statement forget(impl_->database, "DELETE FROM cases WHERE id = ?");
-        for (const std::string& id : finishedCases())
-            if (!wanted.contains(id)) (Binder(forget) << id).run();
+        for (const std::string& id : others) (Binder(forget) << id).run();
         removeSealsOfMissingCases(impl_->database);
         removeUnusedLists(impl_->database);
     });
@@ -258,11 +259,29 @@ bool holdsStore(const fs::path& directory) {
     return fs::file_size(storeFile(directory), error) > 0 && !error;
 }
 
-Run readRun(const fs::path& directory) {
+namespace {
+
+SQLite::Database openForReading(const fs::path& directory) {
     const fs::path file = storeFile(directory);
     if (!fs::exists(file))
         throw std::runtime_error(directory.string() + ": is no run folder (it has no results.sqlite)");
-    SQLite::Database database = openDatabase(file, false);
+    return openDatabase(file, false);
+}
+
+/// SQLite calls this every so many of its instructions, and gives up where it is not 0.
+int isInterrupted(void* flag) {
+    return *static_cast<const std::atomic<bool>*>(flag) ? 1 : 0;
+}
+
+}  // namespace
+
+Run readRun(const fs::path& directory, const std::atomic<bool>* interrupted) {
+    const fs::path file = storeFile(directory);
+    SQLite::Database database = openForReading(directory);
+    constexpr int kInstructions = 100;
+    if (interrupted != nullptr)
+        sqlite3_progress_handler(database.getHandle(), kInstructions, isInterrupted,
+                                 const_cast<std::atomic<bool>*>(interrupted));
     try {
         SQLite::Transaction transaction(database);  // one consistent view while another process writes
         const Damage damage =
@@ -276,7 +295,26 @@ Run readRun(const fs::path& directory) {
         run.schemaVersion = schemaVersionOf(database);
         return run;
     } catch (const std::exception& error) {
+        if (interrupted != nullptr && *interrupted)
+            throw ReadingInterrupted(file.string() + ": reading it was interrupted");
         throw EnvironmentError(file, std::string("cannot be read: ") + error.what(), 0);
+    }
+}
+
+RunOutline readOutline(const fs::path& directory) {
+    SQLite::Database database = openForReading(directory);
+    try {
+        RunOutline outline;
+        SQLite::Statement one(database, "SELECT suite, command FROM run");
+        if (one.executeStep()) Taker(one) >> outline.suite >> outline.command;
+        SQLite::Statement select(database, "SELECT id, scenario, spec FROM cases ORDER BY position, id");
+        while (select.executeStep()) {
+            RunOutline::Case& c = outline.cases.emplace_back();
+            Taker(select) >> c.id >> c.scenario >> c.spec;
+        }
+        return outline;
+    } catch (const std::exception& error) {
+        throw EnvironmentError(storeFile(directory), std::string("cannot be read: ") + error.what(), 0);
     }
 }
 

@@ -4,8 +4,12 @@
 // The results store of a run folder: results.sqlite (schema documented in README.md here) and manifest.json.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "validation/results/types.hpp"
 
@@ -16,9 +20,28 @@ inline constexpr int kSchemaVersion = 14;
 /// True if the folder has a store. A run that stopped before it had tables leaves an empty file, which is none.
 bool holdsStore(const std::filesystem::path& directory);
 
+/// The caller requested that reading a run be given up.
+struct ReadingInterrupted : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Reads a run folder. Cases whose rows do not fit their checksum are left out and named in Run::damage. Throws
-/// std::runtime_error when it is no run folder or of a newer schema, or when what belongs to the whole run is damaged.
-Run readRun(const std::filesystem::path& directory);
+/// std::runtime_error when it is no run folder or of a newer schema, or when what belongs to the whole run is damaged,
+/// and ReadingInterrupted soon after `interrupted`, if there is one, became true.
+Run readRun(const std::filesystem::path& directory, const std::atomic<bool>* interrupted = nullptr);
+
+/// The request of a run, and the cases that it holds.
+struct RunOutline {
+    struct Case {
+        std::string id, scenario, spec;
+    };
+    std::string suite, command;
+    std::vector<Case> cases;  ///< in the order of the plan
+};
+
+/// Reads that alone: quick where a run is large. No checksum is compared. Throws std::runtime_error when it is no run
+/// folder or of a newer schema.
+RunOutline readOutline(const std::filesystem::path& directory);
 
 /// Writes a run as it happens. Every call is one transaction: what returned is on disk after a kill. One
 /// writer at a time: a second one on the same folder is refused. What the disk refuses is an EnvironmentError.

@@ -101,6 +101,7 @@ pid_t ProcessPool::startChild(const ProcessTask& task, int output,
 }
 
 void ProcessPool::start(ProcessTask task) {
+    if (task.begin) task.begin();
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw results::EnvironmentError("pipe: " + results::errorText(errno));
     fcntl(ends[0], F_SETFL, O_NONBLOCK);

@@ -62,6 +62,7 @@ struct ProcessTask {
     bool mayBeDisturbed = false;
     int starts = 0;       ///< number of times that it was started
     int outOfMemory = 0;  ///< number of these that ended while the system killed a process for want of memory
+    std::function<void()> begin{};  ///< called before every start: writes what the child reads
     std::string
         guest{};  ///< engine that it uses, which is lent to it if it is a guest that is kept; "": none
     /// It may be forked from a process that has loaded this module (kNoModule: none), instead of being started. Then

@@ -105,12 +105,12 @@ class RunInProgress {
     }
 
     results::Run run(const std::atomic<bool>& interrupted) {
-        prepare();
-        const bool complete = runTasks(interrupted);
+        const bool complete = prepare(interrupted) && runTasks(interrupted);
         audits_.reset();
-        if (complete && !disturbances_.empty()) throw results::EnvironmentError(disturbanceText());
+        if (!complete) return {};
+        if (!disturbances_.empty()) throw results::EnvironmentError(disturbanceText());
         auto stored = results::readRun(directory_);
-        if (complete) finish(stored);
+        finish(stored);
         stored.directory = options_.directory.string();
         return stored;
     }
@@ -144,21 +144,18 @@ class RunInProgress {
         writer_.finish(run.finished);
     }
 
-    void prepare() {
+    /// False if it was interrupted.
+    bool prepare(const std::atomic<bool>& interrupted) {
         const auto engines = describeInvolved();
         references_ = plannedReferences(plan_, options_);
         auto header = runHeader(plan_, options_, engines, references_);
-        std::vector<std::string> ids;
-        for (const CasePlan& c : plan_) ids.push_back(c.id);
         std::map<std::string, CaseRow> present;
         if (options_.resume) {
-            removeParts(directory_);
-            writer_.keepOnly(ids);
-            const auto stored = results::readRun(directory_);
-            if (!stored.started.empty()) header.started = stored.started;
-            for (const CaseRow& row : stored.cases)
-                if (isWhole(row)) present[row.id] = row;
-            if (isOfAnotherMachine(stored, header)) dropBegunScenarios(present);
+            auto stored = storedRun(interrupted);
+            if (!stored) return false;
+            if (!stored->started.empty()) header.started = stored->started;
+            for (CaseRow& row : stored->cases) present[row.id] = std::move(row);
+            if (isOfAnotherMachine(*stored, header)) dropBegunScenarios(present);
         }
         writer_.writeHeader(header);
         writeScenarioFiles(plan_, directory_);
@@ -176,8 +173,25 @@ class RunInProgress {
             else if (const auto refusal = declaredRefusal(plan_[i], described.at(plan_[i].spec.engine)))
                 pool_.add(refusedTask(i, *refusal));
             else
-                pool_.add(taskOf(i, references_.at(plan_[i].scenario.name)));
+                pool_.add(taskOf(i));
         started_ = std::chrono::steady_clock::now();
+        return true;
+    }
+
+    /// Rows that an earlier part of the run has stored, but for cases that have to be run again. Empty if it was
+    /// interrupted.
+    std::optional<results::Run> storedRun(const std::atomic<bool>& interrupted) {
+        removeParts(directory_);
+        std::vector<std::string> ids;
+        for (const CasePlan& c : plan_) ids.push_back(c.id);
+        writer_.keepOnly(ids);
+        try {
+            auto stored = results::readRun(directory_, &interrupted);
+            std::erase_if(stored.cases, [&](const CaseRow& row) { return !interrupted && !isWhole(row); });
+            if (!interrupted) return stored;
+        } catch (const results::ReadingInterrupted&) {
+        }
+        return std::nullopt;
     }
 
     /// The plan's engines and, for the audit, every engine with collision queries.
@@ -252,9 +266,16 @@ class RunInProgress {
         return 1 + kConvergedSteps + 2 * options_.pieces.size();
     }
 
+    /// Check of the reference that a case is measured against.
+    const ReferenceCheck& referenceOf(std::size_t index) const {
+        const auto known = brokenReferences_.find(index);
+        return known == brokenReferences_.end() ? references_.at(plan_[index].scenario.name) : known->second;
+    }
+
     /// Request to every child of a case. `name`: the stem of its files in the scratch folder.
-    nlohmann::json requestOf(const CasePlan& c, const ReferenceCheck& reference,
-                             const std::string& name) const {
+    nlohmann::json requestOf(std::size_t index, const std::string& name) const {
+        const CasePlan& c = plan_[index];
+        const ReferenceCheck& reference = referenceOf(index);
         nlohmann::json requested{{"id", c.id},
                                  {"scenario", c.scenario.name},
                                  {"text", c.scenarioText},
@@ -285,19 +306,23 @@ class RunInProgress {
         return task;
     }
 
-    /// The child of a case, its request written.
-    ProcessTask taskOf(std::size_t index, const ReferenceCheck& reference) {
+    fs::path requestFileOf(const std::string& name) const { return scratch_.path() / (name + ".json"); }
+
+    /// The child of a case. Its request is a file only while it runs: a plan may have many cases.
+    ProcessTask taskOf(std::size_t index) {
         const CasePlan& c = plan_[index];
-        const fs::path request = scratch_.path() / (c.id + ".json");
-        nlohmann::json requested = requestOf(c, reference, c.id);
-        requested["trajectory"] = (directory_ / trajectoryName(c.id)).string();
-        requested["pieces"] = options_.pieces;
-        writeJsonFile(request, requested);
-        ProcessTask task{{options_.binary.string(), "__case", request.string()},
+        ProcessTask task{{options_.binary.string(), "__case", requestFileOf(c.id).string()},
                          {c.scenario.timeLimit * runsOfCase(), options_.memoryLimitMiB},
                          c.scenario.name + ", " + c.spec.text(),
                          [this, index](const ProcessResult& result) { ended(index, result); },
                          true};
+        task.begin = [this, index] {
+            const CasePlan& begun = plan_[index];
+            nlohmann::json requested = requestOf(index, begun.id);
+            requested["trajectory"] = (directory_ / trajectoryName(begun.id)).string();
+            requested["pieces"] = options_.pieces;
+            writeJsonFile(requestFileOf(begun.id), requested);
+        };
         task.guest = c.spec.engine;
         task.module = servedModule(c.spec);
         return task;
@@ -308,10 +333,7 @@ class RunInProgress {
     bool repeatedWithOwnGuest(std::size_t index, const ProcessResult& result, const CaseRow& row) {
         if (!result.hadLentGuest || row.outcome == Outcome::Completed || row.outcome == Outcome::Unsupported)
             return false;
-        const auto known = brokenReferences_.find(index);
-        ProcessTask task =
-            taskOf(index, known == brokenReferences_.end() ? references_.at(plan_[index].scenario.name)
-                                                           : known->second);
+        ProcessTask task = taskOf(index);
         task.guest.clear();
         pool_.addNext(std::move(task));
         return true;
@@ -324,20 +346,19 @@ class RunInProgress {
     /// The child that runs a case in its `number`-th other order of insertion.
     ProcessTask orderTaskOf(std::size_t index, int number, int others) {
         const CasePlan& c = plan_[index];
-        const auto known = brokenReferences_.find(index);
-        const fs::path request = scratch_.path() / (orderName(c, number) + ".json");
-        nlohmann::json requested =
-            requestOf(c, known == brokenReferences_.end() ? references_.at(c.scenario.name) : known->second,
-                      orderName(c, number));
-        requested["order"] = number;
-        writeJsonFile(request, requested);
+        const std::string name = orderName(c, number);
         ProcessTask task{
-            {options_.binary.string(), "__case", request.string()},
+            {options_.binary.string(), "__case", requestFileOf(name).string()},
             {c.scenario.timeLimit, options_.memoryLimitMiB},
             c.scenario.name + ", " + c.spec.text() + ", order " + std::to_string(number + 1) + " of " +
                 std::to_string(others + 1),
             [this, index, number](const ProcessResult& result) { orderEnded(index, number, result); },
             true};
+        task.begin = [this, index, number, name] {
+            nlohmann::json requested = requestOf(index, name);
+            requested["order"] = number;
+            writeJsonFile(requestFileOf(name), requested);
+        };
         task.module = servedModule(c.spec);
         return task;
     }
@@ -365,7 +386,7 @@ class RunInProgress {
         removePart(directory_ / trajectoryName(plan_[index].id));
         const auto limits = referenceLimitsOf(plan_[index]);
         brokenReferences_[index] = referenceFailure(result.timedOut, result.status, limits);
-        pool_.addNext(taskOf(index, brokenReferences_[index]));
+        pool_.addNext(taskOf(index));
         return true;
     }
 
@@ -388,8 +409,14 @@ class RunInProgress {
         return row;
     }
 
+    void removeRequest(const std::string& name) const {
+        std::error_code ignored;
+        fs::remove(requestFileOf(name), ignored);
+    }
+
     void ended(std::size_t index, const ProcessResult& result) {
         const CasePlan& c = plan_[index];
+        removeRequest(c.id);
         if (!result.disturbance.empty()) return disturbances_.push_back(result.disturbance);
         if (repeatedWithoutReference(index, result)) return;
         CaseRow row = rowOf(index, c.id, result);
@@ -409,6 +436,7 @@ class RunInProgress {
     void orderEnded(std::size_t index, int number, const ProcessResult& result) {
         const CasePlan& c = plan_[index];
         const std::string name = orderName(c, number);
+        removeRequest(name);
         if (!result.disturbance.empty()) {
             openOrders_.abandon(index);
             return disturbances_.push_back(result.disturbance);

@@ -65,7 +65,8 @@ std::vector<CasePlan> planCases(
     const std::vector<std::pair<scenario::Scenario, std::string>>& scenariosAndTexts,
     const std::vector<adapter::EngineSpec>& specs, const std::vector<double>& timeSteps);
 
-/// Runs all cases; returns when all are stored or `interrupted` became true (the run can be resumed then).
+/// Runs all cases; returns when all are stored or `interrupted` became true (the run can be resumed then, and an empty
+/// one is returned).
 results::Run runCases(const std::vector<CasePlan>& plan, const RunOptions& options,
                       const std::function<void(const Progress&)>& onProgress,
                       const std::atomic<bool>& interrupted);

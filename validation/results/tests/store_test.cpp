@@ -184,6 +184,38 @@ TEST(Store, CasesComeInTheOrderOfThePlan) {
     EXPECT_THAT(writer.finishedCases(), ElementsAre("c", "b", "a"));
 }
 
+TEST(Store, AnOutlineNamesTheCasesWithoutTheirRows) {
+    const TemporaryFolder folder;
+    {
+        RunWriter writer(folder.path(), false);
+        writer.writeHeader(header());
+        writer.writeCase(caseRow("a", 1));
+        writer.writeCase(caseRow("b", 0));
+    }
+    const auto run = readRun(folder.path());
+    const RunOutline outline = readOutline(folder.path());
+    EXPECT_EQ(outline.suite, run.suite);
+    EXPECT_EQ(outline.command, run.command);
+    ASSERT_EQ(outline.cases.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(outline.cases[i].id, run.cases[i].id);
+        EXPECT_EQ(outline.cases[i].scenario, run.cases[i].scenario);
+        EXPECT_EQ(outline.cases[i].spec, run.cases[i].spec);
+    }
+    EXPECT_THROW(readOutline(folder.path() / "none"), std::runtime_error);
+}
+
+TEST(Store, ReadingIsInterrupted) {
+    const TemporaryFolder folder;
+    RunWriter writer(folder.path(), false);
+    writer.writeHeader(header());
+    for (int i = 0; i < 100; ++i) writer.writeCase(caseRow("a" + std::to_string(i), i));
+    std::atomic<bool> interrupted{false};
+    EXPECT_EQ(readRun(folder.path(), &interrupted).cases.size(), 100u);
+    interrupted = true;
+    EXPECT_THROW(readRun(folder.path(), &interrupted), ReadingInterrupted);
+}
+
 TEST(Store, WritingACaseAgainReplacesItWhole) {
     const TemporaryFolder folder;
     RunWriter writer(folder.path(), false);

@@ -256,8 +256,9 @@ TEST_F(RunCases, ProgressCountsUpAndNamesWhatEnded) {
 TEST_F(RunCases, AnInterruptedRunIsResumed) {
     const auto cases = plan({thrownBall("a"), thrownBall("b")}, "double_free_flight,double_abort");
     std::atomic<bool> interrupted{false};
-    const auto partial = runCases(
+    runCases(
         cases, options(), [&](const Progress& p) { interrupted = p.done >= 3; }, interrupted);
+    const auto partial = results::readRun(options().directory);
     EXPECT_EQ(partial.cases.size(), 3u);
     EXPECT_EQ(partial.finished, "");
     auto o = options();
@@ -269,6 +270,43 @@ TEST_F(RunCases, AnInterruptedRunIsResumed) {
     EXPECT_EQ(skipped, 3);
     EXPECT_FALSE(resumed.finished.empty());
     EXPECT_EQ(timeless(resumed), timeless(RunCases::run(cases, options("whole"))));
+}
+
+TEST_F(RunCases, AResumedRunIsInterruptedWhileItReadsWhatIsStored) {
+    const auto cases = plan({thrownBall("a"), thrownBall("b")}, "double_free_flight");
+    const auto whole = RunCases::run(cases, options());
+    fs::remove(options().directory / whole.cases.front().trajectoryFile);
+    auto o = options();
+    o.resume = true;
+    const std::atomic<bool> interrupted{true};
+    const auto nothing = [](const Progress&) { FAIL() << "a case was begun"; };
+    EXPECT_TRUE(runCases(cases, o, nothing, interrupted).cases.empty());
+    EXPECT_EQ(timeless(results::readRun(o.directory)), timeless(whole));
+    EXPECT_EQ(timeless(RunCases::run(cases, o)), timeless(whole));
+}
+
+/// A plan may have a hundred thousand cases: their requests are not all on the disk at once.
+TEST_F(RunCases, ARequestIsAFileOnlyWhileItsCaseRuns) {
+    const fs::path temporary = scratch_.path() / "tmp";
+    fs::create_directories(temporary);
+    setenv("TMPDIR", temporary.c_str(), 1);
+    const auto cases = plan({thrownBall("a"), thrownBall("b"), thrownBall("c")}, "double_free_flight");
+    std::size_t most = 0;
+    const auto countRequests = [&](const Progress&) {
+        std::size_t count = 0;
+        for (const auto& entry : fs::recursive_directory_iterator(temporary))
+            if (const fs::path& file = entry.path(); file.extension() == ".json")
+                count += file.stem().extension() == ".answer" ? 0 : 1;
+        most = std::max(most, count);
+    };
+    const std::atomic<bool> never{false};
+    auto o = options();
+    o.jobs = 2;
+    const auto run = runCases(cases, o, countRequests, never);
+    unsetenv("TMPDIR");
+    EXPECT_EQ(run.cases.size(), 6u);
+    EXPECT_GE(most, 1u);
+    EXPECT_LE(most, 2u);
 }
 
 TEST_F(RunCases, ResumingAChangedPlanDropsCasesNoLongerRequested) {
