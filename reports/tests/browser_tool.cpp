@@ -5,6 +5,7 @@
 //   report_tool query FILE SQL    rows of a store as a JSON array of arrays, read by SQLite itself
 //   report_tool bench FOLDER      the report of a synthetic bench
 //   report_tool history FOLDER    the history of three synthetic runs, the last one with one worse case
+//   report_tool large FOLDER      the synthetic run twice: its cases in the page, and beside it as those of a large run
 //   report_tool synthetic FOLDER  the report of the synthetic run, with its bad endings, and of a synthetic study
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -22,9 +23,11 @@
 #include "reports/page/page_data.hpp"
 #include "reports/plots/study.hpp"
 #include "reports/replay/data.hpp"
+#include "reports/report.hpp"
 #include "reports/tests/synthetic_bench.hpp"
 #include "reports/tests/synthetic_run.hpp"
 #include "reports/tests/synthetic_study.hpp"
+#include "validation/results/store.hpp"
 
 namespace {
 
@@ -89,6 +92,21 @@ int synthesise(const fs::path& folder) {
     return 0;
 }
 
+int synthesiseLarge(const fs::path& folder) {
+    const auto run = synthetic::makeRun();
+    const auto write = [&](const char* name, const ReportLimits& limits) {
+        {
+            rigor::results::RunWriter writer(folder / name, false);
+            writer.writeHeader(run);
+            for (const auto& row : run.cases) writer.writeCase(row);
+        }
+        writeReports(folder / name, nullptr, limits);
+    };
+    write("whole", {});
+    write("beside", {.casesInPage = 1});
+    return 0;
+}
+
 int synthesiseBench(const fs::path& folder) {
     fs::create_directories(folder);
     writeFile(folder / "index.html", htmlReport(ViewModel(synthetic::makeBench())));
@@ -147,9 +165,12 @@ int main(int count, char** arguments) {
         const std::string what = count > 2 ? arguments[1] : "";
         if (what == "query" && count == 4) return query(arguments[2], arguments[3]);
         if (what == "synthetic" && count == 3) return synthesise(arguments[2]);
+        if (what == "large" && count == 3) return synthesiseLarge(arguments[2]);
         if (what == "bench" && count == 3) return synthesiseBench(arguments[2]);
         if (what == "history" && count == 3) return synthesiseHistory(arguments[2]);
-        std::fputs("report_tool query FILE SQL | synthetic FOLDER | bench FOLDER | history FOLDER\n", stderr);
+        std::fputs(
+            "report_tool query FILE SQL | large FOLDER | synthetic FOLDER | bench FOLDER | history FOLDER\n",
+            stderr);
         return 2;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "report_tool: %s\n", error.what());

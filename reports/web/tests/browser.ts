@@ -80,6 +80,9 @@ export const smokeRun = once(() => makeRunOf('smoke', 'smoke', '--engines', 'rig
 /** The report of a synthetic run with every bad ending, broken off, and of a study. */
 export const makeSynthetic = once(() => synthetic('synthetic'));
 
+/** Two reports of the synthetic run: `whole`, and `beside`, whose cases stand beside the page as those of a large run. */
+export const makeLarge = once(() => synthetic('large'));
+
 /** The report of a synthetic bench: growth, threads, an invalid timing, a crash, a baseline. */
 export const makeBench = once(() => synthetic('bench'));
 
