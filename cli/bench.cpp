@@ -270,7 +270,7 @@ int bench(const BenchArguments& a) {
     validation::BenchOptions options;
     options.directory = chooseRunFolder(a.out, a.resume, "bench");
     prepareRunFolder(options.directory, a.resume);
-    if (a.resume) checkSameBench(options.directory, work);
+    if (a.resume && results::holdsStore(options.directory)) checkSameBench(options.directory, work);
     options.binary = ownBinary();
     options.resume = a.resume;
     options.target = a.target;

@@ -82,7 +82,7 @@ void ProgressLine::finish() {
     shown_ = false;
 }
 
-results::Run orStopped(ProgressLine& line, const std::string& again,
+results::Run orStopped(ProgressLine& line, const std::function<std::string()>& again,
                        const std::function<results::Run()>& work) {
     try {
         auto run = work();
@@ -91,7 +91,7 @@ results::Run orStopped(ProgressLine& line, const std::string& again,
     } catch (const results::EnvironmentError& error) {
         line.finish();
         throw results::EnvironmentError(std::string("the run stopped: ") + error.what() +
-                                        ". No case is judged by it. Go on with: " + again);
+                                        ". No case is judged by it. Go on with: " + again());
     }
 }
 

@@ -24,8 +24,9 @@ class ProgressLine {
     bool quiet_, live_, shown_ = false;
 };
 
-/// Runs `work` and clears the line. If the environment fails, the message gets the command that goes on with the run.
-results::Run orStopped(ProgressLine& line, const std::string& again,
+/// Runs `work` and clears the line. If the environment fails, the message gets the command that goes on with the run:
+/// `again` makes it then.
+results::Run orStopped(ProgressLine& line, const std::function<std::string()>& again,
                        const std::function<results::Run()>& work);
 
 }  // namespace rigor::cli

@@ -45,10 +45,9 @@ fs::path chooseRunFolder(const std::string& out, bool resume, const std::string&
 }
 
 void prepareRunFolder(const fs::path& directory, bool resume) {
-    const bool holdsRun = results::holdsStore(directory);
-    if (resume && !holdsRun)
+    if (resume && !results::wasBegun(directory))
         throw std::invalid_argument("--resume: '" + directory.string() + "' holds no run");
-    if (!resume && holdsRun)
+    if (!resume && results::holdsStore(directory))
         throw std::invalid_argument("--out: '" + directory.string() +
                                     "' holds a run already; add --resume or choose another folder");
     std::error_code error;
@@ -74,6 +73,13 @@ void checkResumed(const fs::path& directory, const std::vector<validation::CaseP
                 "--resume: '" + directory.string() + "' holds " + row.scenario + " on " + row.spec +
                 ", which this command does not request; it was started by: " + stored.command);
     }
+}
+
+std::string commandToGoOn(const validation::RunOptions& options, bool namesFolder) {
+    std::string command = options.command;
+    if (!options.resume && results::wasBegun(options.directory)) command += " --resume";
+    if (!namesFolder) command += " --out " + options.directory.string();
+    return command;
 }
 
 }  // namespace rigor::cli

@@ -23,4 +23,7 @@ void prepareRunFolder(const std::filesystem::path& directory, bool resume);
 /// changed file are not.
 void checkResumed(const std::filesystem::path& directory, const std::vector<validation::CasePlan>& plan);
 
+/// Command that goes on with a run that was stopped. `namesFolder`: that of the run has `--out`.
+std::string commandToGoOn(const validation::RunOptions& options, bool namesFolder);
+
 }  // namespace rigor::cli

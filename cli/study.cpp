@@ -49,9 +49,7 @@ std::optional<results::Run> runInterruptibly(const StudyArguments& a, const vali
                                              std::size_t cases, Work work) {
     const std::atomic<bool>& interrupted = catchInterrupts();
     ProgressLine line(a.quiet);
-    std::string again = options.command;
-    if (!a.resume) again += " --resume";
-    if (a.out.empty()) again += " --out " + options.directory.string();
+    const auto again = [&] { return commandToGoOn(options, !a.out.empty()); };
     auto run = orStopped(line, again, [&] {
         return work([&](const validation::Progress& p) { line.update(p); }, interrupted);
     });

@@ -229,16 +229,14 @@ int validate(const ValidateArguments& given) {
     if (options.resume) checkResumed(options.directory, plan);
     const std::atomic<bool>& interrupted = catchInterrupts();
     ProgressLine line(arguments.quiet);
-    std::string again = options.command;
-    if (!arguments.resume) again += " --resume";
-    if (arguments.out.empty()) again += " --out " + options.directory.string();
+    const auto again = [&] { return commandToGoOn(options, !arguments.out.empty()); };
     const auto run = orStopped(line, again, [&] {
         return validation::runCases(
             plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
     });
     if (interrupted) {
         std::fprintf(stderr, "Interrupted: %zu of %zu cases are stored. Go on with: %s\n",
-                     results::readOutline(options.directory).cases.size(), plan.size(), again.c_str());
+                     results::readOutline(options.directory).cases.size(), plan.size(), again().c_str());
         return kInterrupted;
     }
     releaseInterrupts();

@@ -44,6 +44,31 @@ TEST(HostileCommands, AFullOutputIsAnError) {
     }
 }
 
+/// A disk that is full from one call on, before and after the store has its tables: the command of the message works.
+TEST(HostileCommands, AfterAFullDiskTheCommandOfTheMessageGoesOn) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "a sanitizer's own library must be the first that is loaded";
+#endif
+    const std::string folder = testing::TempDir() + "full_disk", counter = testing::TempDir() + "counter";
+    for (const int call : {3, 30, 100}) {
+        std::filesystem::remove_all(folder);
+        std::ofstream(counter) << std::string(8, '\0');
+        const Result stopped = rigor(
+            "validate free_flight --engines ode -q --no-audit --out '" + folder + "'", true,
+            "LD_PRELOAD=" RIGOR_BINARY_DIR "/tests/faulty_disk.so RIGOR_FAULT_KIND=full RIGOR_FAULT_AT=" +
+                std::to_string(call) + " RIGOR_FAULT_COUNTER='" + counter + "' RIGOR_FAULT_UNDER='" + folder +
+                "'");
+        EXPECT_EQ(stopped.code, 7) << stopped.out;
+        const std::string before = "Go on with: ./rigor ";
+        const auto at = stopped.out.find(before);
+        ASSERT_NE(at, std::string::npos) << stopped.out;
+        const std::string again =
+            stopped.out.substr(at + before.size(), stopped.out.find('\n', at) - at - before.size());
+        const Result end = rigor(again);
+        EXPECT_EQ(end.code, 0) << again << ": " << end.out;
+    }
+}
+
 TEST(HostileCommands, ANulInAKeyIsOneProblemAmongOthers) {
     const Result result = rigor("check " + hostileFile("nul.json", R"(, "a\u0000b": 1)") + " " +
                                 hostileFile("type.json", R"(, "tags": 3)") + " free_flight");

@@ -29,8 +29,10 @@ namespace fs = std::filesystem;
 /// One writer per run folder, also across processes; the lock ends with the process, however it ends.
 class FolderLock {
   public:
+    static constexpr const char* kName = ".lock";
+
     explicit FolderLock(const fs::path& directory)
-        : file_(open((directory / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
+        : file_(open((directory / kName).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
         if (file_ < 0) throw EnvironmentError(directory, "cannot write here", errno);
         if (!locked()) {
             close(file_);
@@ -65,12 +67,12 @@ SQLite::Database openForWriting(const fs::path& directory, bool resume) {
     if (present && !resume)
         throw std::runtime_error(directory.string() +
                                  ": holds a run already; resume it or choose another folder");
-    if (!present && resume)
-        throw std::runtime_error(directory.string() + ": holds no run that could be resumed");
     return present ? openDatabase(file, true) : createDatabase(file);
 }
 
-fs::path createdFolder(const fs::path& directory) {
+fs::path createdFolder(const fs::path& directory, bool resume) {
+    if (resume && !wasBegun(directory))
+        throw std::runtime_error(directory.string() + ": holds no run that could be resumed");
     createFolders(directory / "trajectories");
     return directory;
 }
@@ -149,7 +151,7 @@ void removeDamagedBench(SQLite::Database& database) {
 
 struct RunWriter::Impl {
     Impl(const fs::path& folder, bool resume)
-        : directory(createdFolder(folder)), lock(directory), database(opened(directory, resume)) {}
+        : directory(createdFolder(folder, resume)), lock(directory), database(opened(directory, resume)) {}
 
     static SQLite::Database opened(const fs::path& folder, bool resume) {
         try {
@@ -254,9 +256,31 @@ void RunWriter::finish(const std::string& isoTime) {
     writeManifest(impl_->directory, readHeaderRows(impl_->database));
 }
 
-bool holdsStore(const fs::path& directory) {
+namespace {
+
+bool isEmpty(const fs::path& file) {
     std::error_code error;
-    return fs::file_size(storeFile(directory), error) > 0 && !error;
+    return fs::file_size(file, error) == 0 || error;
+}
+
+}  // namespace
+
+bool holdsStore(const fs::path& directory) {
+    const fs::path file = storeFile(directory);
+    if (isEmpty(file)) return false;
+    std::error_code ignored;
+    if (fs::exists(file.string() + "-journal", ignored)) try {
+            // The first reading plays back what a killed writer has left; a file without tables becomes empty by it.
+            SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
+            (void)SQLite::Statement(database, "SELECT name FROM sqlite_master").executeStep();
+        } catch (const SQLite::Exception&) {  // reported when the store is opened
+        }
+    return !isEmpty(file);
+}
+
+bool wasBegun(const fs::path& directory) {
+    std::error_code ignored;
+    return fs::exists(directory / FolderLock::kName, ignored) || holdsStore(directory);
 }
 
 namespace {

@@ -17,8 +17,12 @@ namespace rigor::results {
 
 inline constexpr int kSchemaVersion = 14;
 
-/// True if the folder has a store. A run that stopped before it had tables leaves an empty file, which is none.
+/// True if the folder has a store. A run that stopped before it had tables leaves an empty file, or one that becomes empty
+/// when its journal is played back; these are none.
 bool holdsStore(const std::filesystem::path& directory);
+
+/// True if a run was begun in the folder, whether or not it has stored anything: it can be resumed.
+bool wasBegun(const std::filesystem::path& directory);
 
 /// The caller requested that reading a run be given up.
 struct ReadingInterrupted : std::runtime_error {
@@ -48,7 +52,7 @@ RunOutline readOutline(const std::filesystem::path& directory);
 class RunWriter {
   public:
     /// Creates the folder and store, or opens an existing one (`resume`). Throws std::runtime_error when the
-    /// folder holds a run and resume is false, or when resume is true and it holds none.
+    /// folder holds a run and resume is false, or when resume is true and none was begun in it.
     RunWriter(const std::filesystem::path& directory, bool resume);
     ~RunWriter();
     RunWriter(const RunWriter&) = delete;
