@@ -27,11 +27,12 @@ bool FreeRows::eliminate(const AssembledProblem& whole) {
 void FreeRows::separate(const AssembledProblem& whole) {
     free_.clear();
     others_.clear();
-    place_.assign(whole.n, 0);
+    place_.assign(whole.n + 1, 0);
     for (std::size_t i = 0; i < whole.n; ++i) {
         place_[i] = others_.size();
         (whole.kind[i] == RowKind::Free ? free_ : others_).push_back(i);
     }
+    place_[whole.n] = others_.size();  // the tangents of a last contact without friction would begin here
     reduced_.n = others_.size();
     reduced_.kind.clear();
     reduced_.lower.clear();

@@ -37,7 +37,7 @@ class FreeRows {
 
     static constexpr double kShift = 1e-10;
     std::vector<std::size_t> free_, others_;  ///< rows of the whole problem
-    std::vector<std::size_t> place_;          ///< row of the whole problem -> index in others_
+    std::vector<std::size_t> place_;          ///< row of the whole problem, or its end -> index in others_
     std::vector<double> factor_;  ///< Cholesky factor, row by row, each from its first entry to its diagonal
     std::vector<std::size_t> first_, start_;  ///< column of each row's first entry, and its index in factor_
     std::vector<double> coupling_;            ///< W_ec, a column for each other row

@@ -100,6 +100,24 @@ TEST(FreeRows, ContradictionsTakeNoImpulse) {
     }
 }
 
+/// Their tangents, of which there are none, begin after the normal: for the last row, after the end.
+TEST(FreeRows, ContactsWithoutFrictionKeepTheirPlaces) {
+    AssembledProblem p = randomProblem(18, 30, 1);
+    for (const std::size_t normal : {5u, 17u}) {
+        p.kind[normal] = RowKind::Normal;
+        p.contacts.push_back({normal, 0, normal + 1});
+    }
+    FreeRows free;
+    ASSERT_TRUE(free.eliminate(p));
+    const AssembledProblem& reduced = free.reduce(p);
+    ASSERT_EQ(reduced.contacts.size(), 2u);
+    EXPECT_EQ(reduced.n, 6u);
+    EXPECT_EQ(reduced.contacts[0].normal, 1u);
+    EXPECT_EQ(reduced.contacts[0].first, 2u);
+    EXPECT_EQ(reduced.contacts[1].normal, 5u);
+    EXPECT_EQ(reduced.contacts[1].first, 6u);
+}
+
 TEST(FreeRows, ProblemsWithoutFreeRowsStayWhole) {
     AssembledProblem p = randomProblem(9, 12, 1);
     for (std::size_t i = 0; i < p.n; ++i) p.kind[i] = RowKind::Bounded;
