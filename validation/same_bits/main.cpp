@@ -3,8 +3,9 @@
 //
 // rigor-same-bits [--engines SPECS] [--steps N] [--write FILE] [--against FILE]... SCENARIO|SUITE...
 //
-// Prints how many cases have the same bits in each way of running them. Exit code 1: some have not, each is named with the
-// first step that differs. FILE has a line for each case: scenario, spec, dt, hash of the last state.
+// Prints how many cases have the same bits in each way of running them; with --against, how many have those of the file,
+// and nothing else. Exit code 1: some have not, each is named with the first step that differs. FILE has a line for each
+// case: scenario, spec, dt, hash of the last state.
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -124,11 +125,7 @@ class Comparison {
         const StateHashes first = statesOf(one);
         const std::string precision =
             one.spec.options.count("precision") > 0 ? one.spec.options.at("precision") + ", " : std::string();
-        compare(table_[precision + "a second run"], one, first, statesOf(one));
-        if (const auto two = onTwoThreads(one))
-            compare(table_[precision + "two threads"], one, first, statesOf(*two));
-        if (const auto restored = restoredStatesOf(one, seed))
-            compare(table_[precision + "restored at random steps"], one, first, *restored);
+        if (files_.empty()) compareWays(one, first, precision, seed);
         for (const auto& [file, hashes] : files_) {
             const auto it = hashes.find(one.key());
             if (it == hashes.end()) continue;
@@ -142,6 +139,15 @@ class Comparison {
     bool isWritten() { return !out_.is_open() || out_.flush().good(); }
 
   private:
+    void compareWays(const SameBitsCase& one, const StateHashes& first, const std::string& precision,
+                     unsigned seed) {
+        compare(table_[precision + "a second run"], one, first, statesOf(one));
+        if (const auto two = onTwoThreads(one))
+            compare(table_[precision + "two threads"], one, first, statesOf(*two));
+        if (const auto restored = restoredStatesOf(one, seed))
+            compare(table_[precision + "restored at random steps"], one, first, *restored);
+    }
+
     std::map<std::string, std::map<std::string, std::string>> files_;
     std::ofstream out_;
     Table table_;
