@@ -240,9 +240,8 @@ bool compareWithBaseline(const BenchArguments& a, const results::Run& baseline, 
 }
 
 int interruptedAt(const BenchArguments& a, const validation::BenchOptions& options) {
-    std::string command = options.command;
-    if (!a.resume) command += " --resume";
-    if (a.out.empty()) command += " --out " + options.directory.string();
+    const std::string command =
+        commandToGoOn(options.command, options.directory, options.resume, !a.out.empty());
     std::fprintf(stderr, "Interrupted; what was measured is stored. Go on with: %s\n", command.c_str());
     return kInterrupted;
 }

@@ -75,10 +75,9 @@ void checkResumed(const fs::path& directory, const std::vector<validation::CaseP
     }
 }
 
-std::string commandToGoOn(const validation::RunOptions& options, bool namesFolder) {
-    std::string command = options.command;
-    if (!options.resume && results::wasBegun(options.directory)) command += " --resume";
-    if (!namesFolder) command += " --out " + options.directory.string();
+std::string commandToGoOn(std::string command, const fs::path& directory, bool resumed, bool namesFolder) {
+    if (!resumed && results::wasBegun(directory)) command += " --resume";
+    if (!namesFolder) command += " --out " + directory.string();
     return command;
 }
 

@@ -23,7 +23,9 @@ void prepareRunFolder(const std::filesystem::path& directory, bool resume);
 /// changed file are not.
 void checkResumed(const std::filesystem::path& directory, const std::vector<validation::CasePlan>& plan);
 
-/// Command that goes on with a run that was stopped. `namesFolder`: that of the run has `--out`.
-std::string commandToGoOn(const validation::RunOptions& options, bool namesFolder);
+/// Command that goes on with a run in `directory` that `command` had begun or, if `resumed`, gone on with. `namesFolder`: it
+/// has `--out`.
+std::string commandToGoOn(std::string command, const std::filesystem::path& directory, bool resumed,
+                          bool namesFolder);
 
 }  // namespace rigor::cli

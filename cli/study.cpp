@@ -49,7 +49,9 @@ std::optional<results::Run> runInterruptibly(const StudyArguments& a, const vali
                                              std::size_t cases, Work work) {
     const std::atomic<bool>& interrupted = catchInterrupts();
     ProgressLine line(a.quiet);
-    const auto again = [&] { return commandToGoOn(options, !a.out.empty()); };
+    const auto again = [&] {
+        return commandToGoOn(options.command, options.directory, options.resume, !a.out.empty());
+    };
     auto run = orStopped(line, again, [&] {
         return work([&](const validation::Progress& p) { line.update(p); }, interrupted);
     });

@@ -229,7 +229,9 @@ int validate(const ValidateArguments& given) {
     if (options.resume) checkResumed(options.directory, plan);
     const std::atomic<bool>& interrupted = catchInterrupts();
     ProgressLine line(arguments.quiet);
-    const auto again = [&] { return commandToGoOn(options, !arguments.out.empty()); };
+    const auto again = [&] {
+        return commandToGoOn(options.command, options.directory, options.resume, !arguments.out.empty());
+    };
     const auto run = orStopped(line, again, [&] {
         return validation::runCases(
             plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);

@@ -4,11 +4,10 @@
 // Contact problems as JSON: {"form": "local", "dim", "nc", "mu", "q", "W"} or {"form": "global", ..., "f",
 // "w", "M", "H"}, "solution": {"r"}; a matrix is {"n": [rows, columns], "rows", "cols", "vals"}, triplets
 // from 0.
-#include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "validation/contact_problems/problem.hpp"
 
@@ -19,9 +18,8 @@ using nlohmann::json;
 
 /// An int of the file; the JSON library would convert a number that no int can hold without a word.
 int integerFrom(const json& j, const std::string& key) {
-    const bool isInt = j.is_number_unsigned()  ? std::in_range<int>(j.get<std::uint64_t>())
-                       : j.is_number_integer() ? std::in_range<int>(j.get<std::int64_t>())
-                                               : false;
+    const bool isInt = j.is_number_integer() && j.get<double>() >= std::numeric_limits<int>::min() &&
+                       j.get<double>() <= std::numeric_limits<int>::max();
     if (!isInt) throw adapter::BadInput(key + ": found " + j.dump() + ", expected an integer");
     return j.get<int>();
 }

@@ -199,11 +199,10 @@ std::vector<std::string> RunWriter::finishedCases() const {
 
 void RunWriter::keepOnly(const std::vector<std::string>& ids) {
     const std::set<std::string> wanted(ids.begin(), ids.end());
-    std::vector<std::string> others = finishedCases();
-    std::erase_if(others, [&](const std::string& id) { return wanted.contains(id); });
     impl_->write([&] {
         SQLite::Statement forget(impl_->database, "DELETE FROM cases WHERE id = ?");
-        for (const std::string& id : others) (Binder(forget) << id).run();
+        for (const std::string& id : finishedCases())
+            if (!wanted.contains(id)) (Binder(forget) << id).run();
         removeSealsOfMissingCases(impl_->database);
         removeUnusedLists(impl_->database);
     });
@@ -263,18 +262,23 @@ bool isEmpty(const fs::path& file) {
     return fs::file_size(file, error) == 0 || error;
 }
 
+/// The first reading plays back what a killed writer has left. A file without tables becomes empty by it.
+void playBackJournal(const fs::path& file) {
+    std::error_code ignored;
+    if (!fs::exists(file.string() + "-journal", ignored)) return;
+    try {
+        SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
+        (void)SQLite::Statement(database, "SELECT name FROM sqlite_master").executeStep();
+    } catch (const SQLite::Exception&) {  // reported when the store is opened
+    }
+}
+
 }  // namespace
 
 bool holdsStore(const fs::path& directory) {
     const fs::path file = storeFile(directory);
     if (isEmpty(file)) return false;
-    std::error_code ignored;
-    if (fs::exists(file.string() + "-journal", ignored)) try {
-            // The first reading plays back what a killed writer has left; a file without tables becomes empty by it.
-            SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
-            (void)SQLite::Statement(database, "SELECT name FROM sqlite_master").executeStep();
-        } catch (const SQLite::Exception&) {  // reported when the store is opened
-        }
+    playBackJournal(file);
     return !isEmpty(file);
 }
 
