@@ -278,10 +278,13 @@ TEST_F(RunCases, AResumedRunIsInterruptedWhileItReadsWhatIsStored) {
     fs::remove(options().directory / whole.cases.front().trajectoryFile);
     auto o = options();
     o.resume = true;
+    o.command = "resumed";
     const std::atomic<bool> interrupted{true};
     const auto nothing = [](const Progress&) { FAIL() << "a case was begun"; };
     EXPECT_TRUE(runCases(cases, o, nothing, interrupted).cases.empty());
-    EXPECT_EQ(timeless(results::readRun(o.directory)), timeless(whole));
+    const auto stored = results::readRun(o.directory);
+    EXPECT_EQ(timeless(stored), timeless(whole));
+    EXPECT_EQ(stored.command, whole.command) << "it has begun to write";
     EXPECT_EQ(timeless(RunCases::run(cases, o)), timeless(whole));
 }
 
