@@ -70,6 +70,7 @@ int runFit(const FitArguments& a) {
                      options.directory.c_str());
         return kInterrupted;
     }
+    releaseInterrupts();
     for (const auto& folder : outcome.runFolders) report::writeReports(folder);
     if (a.json)
         std::printf("%s\n", validation::fitToJson(outcome.result).dump(1).c_str());

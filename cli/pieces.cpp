@@ -87,6 +87,7 @@ int pieces(const PiecesArguments& a) {
         plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
     line.finish();
     if (interrupted) return kInterrupted;
+    releaseInterrupts();
     report::writeReports(options.directory);
     std::printf("Error of one piece [m]: median over the pieces (worst)\n%-24s %-32s %-12s", "scenario",
                 "engine", "");
