@@ -8,11 +8,19 @@
 #include <string>
 #include <vector>
 
+#include "adapters/interface/joint_trees.hpp"
 #include "adapters/mujoco/library.hpp"
 #include "adapters/mujoco/surface.hpp"
-#include "adapters/mujoco/tree.hpp"
 
 namespace rigor::mujoco {
+
+using adapter::canBreak;
+using adapter::canCloseLoop;
+using adapter::Forest;
+using adapter::kNone;
+using adapter::Link;
+using adapter::spanningForest;
+using adapter::swingLimit;
 
 /// Settings of a spec that the model depends on.
 struct ModelSettings {

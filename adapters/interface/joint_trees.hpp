@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The joints of a scenario as MuJoCo's kinematic trees: every body hangs on at most one joint, in reduced coordinates;
-// joints that are left close loops.
+// The joints of a scenario as kinematic trees, for engines with reduced coordinates: every body hangs on at most one
+// joint; joints that are left close loops.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "adapters/mujoco/convert.hpp"
+#include "adapters/interface/types.hpp"
 
-namespace rigor::mujoco {
+namespace rigor::adapter {
 
 using scenario::kNone;
 
-/// One body of the scenario in the trees. MuJoCo's body frame has its origin in the centre of mass; that of a dynamic
-/// body in 3D has the principal axes.
+/// One body of the scenario in the trees. The engine's body frame has its origin in the centre of mass; that of a
+/// dynamic body in 3D has the principal axes.
 struct Link {
     int parent = kNone;     ///< scenario body that it hangs on; kNone: the world
     int joint = kNone;      ///< scenario joint; kNone: none, a free or static body
     bool reversed = false;  ///< the joint's A hangs on its B
     bool fixed = false;     ///< static
-    Pose frame;             ///< MuJoCo's body frame in the scenario's body frame
+    Pose frame;             ///< the engine's body frame in the scenario's body frame
     Vec3 moments;           ///< moments of inertia about the axes of `frame` [kg m^2]
     Pose rest;              ///< initial pose in the frame of the parent
     std::vector<int> children;
@@ -34,11 +34,12 @@ struct Forest {
 };
 
 /// `scenario` is three-dimensional; `planar` if it was lifted from two dimensions.
-Forest spanningForest(const adapter::Scenario& scenario, bool planar);
+Forest spanningForest(const Scenario& scenario, bool planar);
 
-/// True where an equality constraint of MuJoCo holds all that a joint does, so that it may close a loop.
+/// True for joints that points and whole frames can hold (a point, two points on an axis, a weld), so that they may close
+/// a loop.
 bool canCloseLoop(const scenario::Joint& joint);
-/// True for joints with a strength. They are equalities, which alone can be switched off.
+/// True for joints with a strength. They are constraints beside the trees, which alone can be switched off.
 bool canBreak(const scenario::Joint& joint);
 /// Greatest angle between the axes of A and B [rad]; beyond pi where nothing bounds it.
 double swingLimit(const scenario::Joint& joint);
@@ -48,9 +49,9 @@ double swingLimit(const scenario::Joint& joint);
 Vec3 anchorIn(const Link& link, const scenario::Joint& joint);
 Vec3 axisIn(const Link& link, const scenario::Joint& joint);
 /// The three axes of a six_dof. `scenario` gives the initial poses.
-std::array<Vec3, 3> sixDofAxesIn(const Link& link, const adapter::Scenario& scenario,
+std::array<Vec3, 3> sixDofAxesIn(const Link& link, const Scenario& scenario,
                                  const scenario::Joint& joint);
 /// Axis of a wheel's pin. `scenario` gives the initial poses.
-Vec3 spinIn(const Link& link, const adapter::Scenario& scenario, const scenario::Joint& joint);
+Vec3 spinIn(const Link& link, const Scenario& scenario, const scenario::Joint& joint);
 
-}  // namespace rigor::mujoco
+}  // namespace rigor::adapter

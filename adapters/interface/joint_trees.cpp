@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "adapters/mujoco/tree.hpp"
+#include "adapters/interface/joint_trees.hpp"
 
 #include <cmath>
 #include <deque>
@@ -8,7 +8,7 @@
 
 #include "adapters/interface/principal_axes.hpp"
 
-namespace rigor::mujoco {
+namespace rigor::adapter {
 namespace {
 
 using scenario::Body;
@@ -16,20 +16,20 @@ using scenario::BodyType;
 using scenario::Joint;
 using scenario::JointType;
 
-/// MuJoCo's frame of a body and its moments there.
+/// The engine's frame of a body and its moments there.
 void setFrame(const Body& body, bool planar, Link& link) {
     link.frame.position = body.massProperties.centerOfMass;
     const Mat3& inertia = body.massProperties.inertia;
     link.moments = {inertia(0, 0), inertia(1, 1), inertia(2, 2)};
     if (body.type != BodyType::Dynamic || planar) return;
-    const adapter::PrincipalAxes principal = adapter::principalAxes(inertia);
+    const PrincipalAxes principal = principalAxes(inertia);
     link.frame.orientation = principal.axes;
     link.moments = principal.moments;
 }
 
 class Search {
   public:
-    Search(const adapter::Scenario& scenario, bool planar)
+    Search(const Scenario& scenario, bool planar)
         : scenario_(scenario), used_(scenario.joints.size()) {
         const int count = static_cast<int>(scenario.bodies.size());
         forest_.links.resize(scenario.bodies.size());
@@ -116,7 +116,7 @@ class Search {
         }
     }
 
-    const adapter::Scenario& scenario_;
+    const Scenario& scenario_;
     std::vector<bool> used_, seen_, inTree_;
     std::deque<int> queue_;
     Forest forest_;
@@ -143,7 +143,7 @@ double swingLimit(const Joint& joint) {
     return bounded ? swing.upper : 1e300;
 }
 
-Forest spanningForest(const adapter::Scenario& scenario, bool planar) {
+Forest spanningForest(const Scenario& scenario, bool planar) {
     return Search(scenario, planar).take();
 }
 
@@ -156,7 +156,7 @@ Vec3 axisIn(const Link& link, const Joint& joint) {
     return link.reversed ? -axis : axis;
 }
 
-std::array<Vec3, 3> sixDofAxesIn(const Link& link, const adapter::Scenario& scenario, const Joint& joint) {
+std::array<Vec3, 3> sixDofAxesIn(const Link& link, const Scenario& scenario, const Joint& joint) {
     const auto turnOf = [&](int body) {
         return body == kNone ? Quat{} : scenario.bodies[body].pose.orientation;
     };
@@ -167,7 +167,7 @@ std::array<Vec3, 3> sixDofAxesIn(const Link& link, const adapter::Scenario& scen
             sign * rotateInverse(own, cross(x, y))};
 }
 
-Vec3 spinIn(const Link& link, const adapter::Scenario& scenario, const Joint& joint) {
+Vec3 spinIn(const Link& link, const Scenario& scenario, const Joint& joint) {
     if (!link.reversed) return rotateInverse(link.frame.orientation, joint.spinAxisB);
     const auto turnOf = [&](int body) {
         return body == kNone ? Quat{} : scenario.bodies[body].pose.orientation;
@@ -176,4 +176,4 @@ Vec3 spinIn(const Link& link, const adapter::Scenario& scenario, const Joint& jo
     return -rotateInverse(turnOf(joint.bodyA) * link.frame.orientation, world);
 }
 
-}  // namespace rigor::mujoco
+}  // namespace rigor::adapter
