@@ -102,7 +102,8 @@ TEST_P(Contact, ContactsTellTheOverlapAtTheirInstant) {
         b = placeOf(1);
     }
     const auto contacts = contactsOf(*world);
-    ASSERT_EQ(contacts.size(), 1u);
+    within("ball_found", contacts.size() == 1 ? 0.0 : 1.0, 0.0);
+    if (contacts.empty()) return;
     const ContactPoint& c = contacts.front();
     within("ball_depth", std::abs(c.depth - (0.75 - norm(b - a))), tol(1e-9, 1e-5));
     within("ball_normal", norm(c.normal - along), tol(1e-7, 1e-4));

@@ -270,7 +270,8 @@ TEST(IncludeRule, TheRuleItselfRefuses) {
 TEST(IncludeRule, ThirdPartyHeadersStayInTheirRooms) {
     const std::vector<std::pair<std::regex, std::vector<std::string>>> rooms{
         {std::regex(R"(#include\s*<Eigen/)"),
-         {"engine/math/", "engine/shapes/", "engine/narrowphase/", "adapters/fcl/", "validation/references/",
+         {"engine/math/", "engine/shapes/", "engine/narrowphase/", "adapters/fcl/", "adapters/dart/",
+          "adapters/conformance/plain_programs/dart/", "validation/references/",
           "validation/contact_problems/"}},
         {std::regex(R"(#include\s*<(oneapi/)?tbb/)"), {"engine/core/"}},
         {std::regex(R"(#include\s*<(bullet/|bt[A-Z]|Bullet|LinearMath))"),
@@ -283,6 +284,7 @@ TEST(IncludeRule, ThirdPartyHeadersStayInTheirRooms) {
          {"adapters/mujoco/", "adapters/conformance/plain_programs/mujoco/", "scenarios/exchange/"}},
         {std::regex(R"(#include\s*<chipmunk/)"),
          {"adapters/chipmunk/", "adapters/conformance/plain_programs/chipmunk/"}},
+        {std::regex(R"(#include\s*<dart/)"), {"adapters/dart/", "adapters/conformance/plain_programs/dart/"}},
         {std::regex(R"(#include\s*<fclib)"), {"validation/contact_problems/tests/oracle/"}},
         {std::regex(R"(#include\s*<(SQLiteCpp/|sqlite3|hdf5))"),
          {"validation/results/", "reports/tests/browser_tool.cpp"}},

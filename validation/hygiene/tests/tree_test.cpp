@@ -50,6 +50,7 @@ TEST(Tree, EveryFolderHasAReadme) {
                                "adapters/fcl",
                                "adapters/mujoco",
                                "adapters/chipmunk",
+                               "adapters/dart",
                                "adapters/siconos",
                                "adapters/guest",
                                "adapters/conformance",

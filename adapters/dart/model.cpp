@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "adapters/dart/model.hpp"
+
+#include <dart/constraint/BallJointConstraint.hpp>
+#include <dart/constraint/WeldJointConstraint.hpp>
+#include <dart/dynamics/BallJoint.hpp>
+#include <dart/dynamics/FreeJoint.hpp>
+#include <dart/dynamics/PlanarJoint.hpp>
+#include <dart/dynamics/PrismaticJoint.hpp>
+#include <dart/dynamics/RevoluteJoint.hpp>
+#include <dart/dynamics/WeldJoint.hpp>
+
+#include "adapters/dart/shapes.hpp"
+
+namespace rigor::dart_adapter {
+namespace {
+
+using dart::dynamics::BodyNode;
+using dart::dynamics::SkeletonPtr;
+using scenario::AxisMode;
+using scenario::Body;
+using scenario::BodyType;
+using scenario::Joint;
+using scenario::JointAxis;
+using scenario::JointType;
+
+/// Distance of the two points that hold a hinge which closes a loop [m].
+constexpr double kHingeArm = 0.1;
+
+class Builder {
+  public:
+    Builder(const adapter::Scenario& scenario, bool planar, const std::string& narrowPhase)
+        : scenario_(scenario), planar_(planar), narrowPhase_(narrowPhase) {
+        model_.forest = adapter::spanningForest(scenario, planar);
+        model_.bodies.resize(scenario.bodies.size());
+        model_.shapeNodes.resize(scenario.bodies.size());
+        for (const int body : model_.forest.order) addBody(body);
+        for (const int joint : model_.forest.loops) closeLoop(scenario.joints[joint]);
+    }
+    Model take() { return std::move(model_); }
+
+  private:
+    const Link& link(int body) const { return model_.forest.links[body]; }
+    /// The node that a body hangs on, in whose skeleton it is then; null for the world and static bodies.
+    BodyNode* parentOf(int body) const {
+        const int parent = link(body).parent;
+        return parent == kNone || link(parent).fixed ? nullptr : model_.bodies[parent];
+    }
+
+    void addBody(int index) {
+        const Body& body = scenario_.bodies[index];
+        BodyNode* parent = parentOf(index);
+        SkeletonPtr skeleton;
+        if (parent == nullptr) {
+            skeleton = dart::dynamics::Skeleton::create("tree" + std::to_string(model_.skeletons.size()));
+            // Gravity is a force of the adapter where a body has its own, and for kinematic bodies.
+            skeleton->setMobile(body.type != BodyType::Static);
+            model_.skeletons.push_back(skeleton);
+        } else {
+            skeleton = parent->getSkeleton();
+        }
+        dart::dynamics::BodyNode::Properties properties;
+        properties.mName = "body" + std::to_string(index);
+        const Link& own = link(index);
+        if (body.type == BodyType::Dynamic)
+            properties.mInertia = dart::dynamics::Inertia(body.massProperties.mass, Eigen::Vector3d::Zero(),
+                                                          Eigen::Matrix3d(toDart(own.moments).asDiagonal()));
+        BodyNode* node = createNode(*skeleton, parent, index, properties);
+        model_.bodies[index] = node;
+        if (body.type != BodyType::Dynamic || body.gravityScale != 1.0) node->setGravityMode(false);
+        addShapes(index);
+    }
+
+    template <class JointKind>
+    BodyNode* create(dart::dynamics::Skeleton& skeleton, BodyNode* parent,
+                     const typename JointKind::Properties& joint, const BodyNode::Properties& body) {
+        return skeleton.createJointAndBodyNodePair<JointKind>(parent, joint, body).second;
+    }
+
+    BodyNode* createNode(dart::dynamics::Skeleton& skeleton, BodyNode* parent, int index,
+                         const BodyNode::Properties& body) {
+        const Link& own = link(index);
+        dart::dynamics::Joint::Properties frame;
+        frame.mName = "joint" + std::to_string(index);
+        if (own.fixed) {
+            frame.mT_ParentBodyToJoint = toDart(scenario_.bodies[index].pose * own.frame);
+            dart::dynamics::WeldJoint::Properties weld;
+            static_cast<dart::dynamics::Joint::Properties&>(weld) = frame;
+            return create<dart::dynamics::WeldJoint>(skeleton, parent, weld, body);
+        }
+        if (own.joint == kNone) return createFree(skeleton, frame, index, body);
+        return createTied(skeleton, parent, frame, index, body);
+    }
+
+    BodyNode* createFree(dart::dynamics::Skeleton& skeleton, const dart::dynamics::Joint::Properties& frame,
+                         int index, const BodyNode::Properties& body) {
+        if (planar_ && scenario_.bodies[index].type == BodyType::Dynamic) {
+            dart::dynamics::PlanarJoint::Properties planar;
+            static_cast<dart::dynamics::Joint::Properties&>(planar) = frame;
+            return create<dart::dynamics::PlanarJoint>(skeleton, nullptr, planar, body);
+        }
+        dart::dynamics::FreeJoint::Properties free;
+        static_cast<dart::dynamics::Joint::Properties&>(free) = frame;
+        BodyNode* node = create<dart::dynamics::FreeJoint>(skeleton, nullptr, free, body);
+        // A kinematic body's velocity is prescribed: nothing changes it.
+        if (scenario_.bodies[index].type == BodyType::Kinematic)
+            node->getParentJoint()->setActuatorType(dart::dynamics::Joint::VELOCITY);
+        return node;
+    }
+
+    /// The joint's frame has the axes of the child's frame at the initial poses.
+    BodyNode* createTied(dart::dynamics::Skeleton& skeleton, BodyNode* parent,
+                         dart::dynamics::Joint::Properties frame, int index,
+                         const BodyNode::Properties& body) {
+        using namespace dart::dynamics;
+        const Link& own = link(index);
+        const scenario::Joint& joint = scenario_.joints[own.joint];
+        const Pose anchor{anchorIn(own, joint), {}};
+        Pose base;
+        if (own.parent != kNone && link(own.parent).fixed)
+            base = scenario_.bodies[own.parent].pose * link(own.parent).frame;
+        frame.mT_ParentBodyToJoint = toDart(base * own.rest * anchor);
+        frame.mT_ChildBodyToJoint = toDart(anchor);
+        const JointAxis& use = joint.axes[0];
+        const bool turns = joint.type == JointType::Hinge || joint.type == JointType::Ball;
+        if (joint.type == JointType::Fixed || use.mode == AxisMode::Locked) {
+            WeldJoint::Properties weld;
+            static_cast<dart::dynamics::Joint::Properties&>(weld) = frame;
+            return create<WeldJoint>(skeleton, parent, weld, body);
+        }
+        BodyNode* node = nullptr;
+        if (joint.type == JointType::Ball && !planar_) {
+            BallJoint::Properties ball;
+            static_cast<dart::dynamics::Joint::Properties&>(ball) = frame;
+            return create<BallJoint>(skeleton, parent, ball, body);
+        }
+        const Vec3 axis = planar_ && turns ? Vec3{0.0, 0.0, 1.0} : axisIn(own, joint);
+        if (turns) {
+            RevoluteJoint::Properties hinge;
+            static_cast<dart::dynamics::Joint::Properties&>(hinge) = frame;
+            hinge.mAxis = toDart(axis);
+            node = create<RevoluteJoint>(skeleton, parent, hinge, body);
+        } else if (joint.type == JointType::Slider) {
+            PrismaticJoint::Properties slider;
+            static_cast<dart::dynamics::Joint::Properties&>(slider) = frame;
+            slider.mAxis = toDart(axis);
+            node = create<PrismaticJoint>(skeleton, parent, slider, body);
+        } else {
+            throw adapter::notInAdapter("dart", std::string("joint '") + jointName(joint.type) + "'",
+                                        "joint '" + joint.name + "'");
+        }
+        equip(*node->getParentJoint(), use);
+        return node;
+    }
+
+    /// Stops, spring and motor of a joint's one coordinate.
+    void equip(dart::dynamics::Joint& joint, const JointAxis& use) {
+        if (use.mode == AxisMode::Limited) {
+            joint.setLimitEnforcement(true);
+            if (use.lower > -1e299) joint.setPositionLowerLimit(0, use.lower);
+            if (use.upper < 1e299) joint.setPositionUpperLimit(0, use.upper);
+        }
+        if (use.hasSpring()) {
+            joint.setSpringStiffness(0, use.stiffness);
+            joint.setDampingCoefficient(0, use.damping);
+            joint.setRestPosition(0, use.target);
+        }
+        if (!use.hasMotor()) return;
+        joint.setActuatorType(dart::dynamics::Joint::SERVO);
+        joint.setForceLowerLimit(0, -use.motorMaxForce);
+        joint.setForceUpperLimit(0, use.motorMaxForce);
+        model_.motors.emplace_back(&joint, use.motorSpeed);
+    }
+
+    void addShapes(int index) {
+        const Body& body = scenario_.bodies[index];
+        model_.shapeNodes[index].resize(body.shapes.size(), nullptr);
+        if (!body.collides) return;
+        const Pose toNode = inverse(link(index).frame);
+        for (std::size_t k = 0; k < body.shapes.size(); ++k) {
+            for (const DartShape& made : makeShapes(body.shapes[k].geometry, narrowPhase_))
+                addShape(index, k, made, toNode * body.shapes[k].pose * made.frame);
+        }
+    }
+
+    void addShape(int body, std::size_t k, const DartShape& made, const Pose& pose) {
+        using dart::dynamics::CollisionAspect;
+        using dart::dynamics::DynamicsAspect;
+        auto* shape = model_.bodies[body]->createShapeNodeWith<CollisionAspect, DynamicsAspect>(
+            made.shape, "shape" + std::to_string(model_.shapes.size()));
+        shape->setRelativeTransform(toDart(pose));
+        if (model_.shapeNodes[body][k] == nullptr) model_.shapeNodes[body][k] = shape;
+        model_.shapes[shape] = {body, static_cast<int>(k)};
+    }
+
+    /// A ball is a point, a fixed joint a weld, a hinge two points on its axis.
+    void closeLoop(const Joint& joint) {
+        using namespace dart::constraint;
+        if (!adapter::canCloseLoop(joint) || adapter::canBreak(joint))
+            throw adapter::notInLibrary(
+                "dart", std::string("a ") + jointName(joint.type) + " that closes a loop",
+                "dart/constraint: BallJointConstraint and WeldJointConstraint", "joint '" + joint.name + "'");
+        const auto movable = [&](int body) { return body != kNone && !link(body).fixed; };
+        const int body = movable(joint.bodyB) ? joint.bodyB : joint.bodyA;
+        const int other = body == joint.bodyB ? joint.bodyA : joint.bodyB;
+        BodyNode *one = model_.bodies[body], *two = movable(other) ? model_.bodies[other] : nullptr;
+        if (joint.type == JointType::Fixed) {
+            model_.loops.push_back(two != nullptr ? std::make_shared<WeldJointConstraint>(one, two)
+                                                  : std::make_shared<WeldJointConstraint>(one));
+            return;
+        }
+        const Pose pose = scenario_.bodies[body].pose;
+        const Vec3 anchor = pose * (body == joint.bodyB ? joint.anchorB : joint.anchorA);
+        const Vec3 axis = rotate(pose.orientation, body == joint.bodyB ? joint.axisB : joint.axisA);
+        const auto hold = [&](const Vec3& point) {
+            model_.loops.push_back(two != nullptr
+                                       ? std::make_shared<BallJointConstraint>(one, two, toDart(point))
+                                       : std::make_shared<BallJointConstraint>(one, toDart(point)));
+        };
+        hold(anchor);
+        if (joint.type == JointType::Hinge && !planar_) hold(anchor + kHingeArm * axis);
+    }
+
+    const adapter::Scenario& scenario_;
+    bool planar_;
+    std::string narrowPhase_;
+    Model model_;
+};
+
+}  // namespace
+
+Model buildModel(const adapter::Scenario& scenario, bool planar, const std::string& narrowPhase) {
+    return Builder(scenario, planar, narrowPhase).take();
+}
+
+}  // namespace rigor::dart_adapter

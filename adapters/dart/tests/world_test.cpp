@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Behaviour of DART's own: contacts that no joint lets move, runs that escape, what stands for a half-space.
+#include <cmath>
+
+#include "adapters/interface/tests/scenes.hpp"
+
+namespace rigor::test {
+namespace {
+
+/// Two balls on a hinge whose anchors lie on the line between them: no coordinate brings them nearer, and the row of
+/// their contact is zero. DART by itself ends the process there.
+TEST(DartWorld, AContactThatNoJointLetsMoveIsReportedAndNotSolved) {
+    Scenario s = scene(0.5);
+    s.gravity = {};
+    const int a = addBody(s, Sphere{0.5}, {0, 0, 0}, 1.0, even(0.1));
+    const int b = addBody(s, Sphere{0.5}, {0.8, 0, 0}, 1.0, even(0.1));
+    Joint joint;
+    joint.name = "pin";
+    joint.type = JointType::Hinge;
+    joint.bodyA = a;
+    joint.bodyB = b;
+    joint.anchorA = {0.4, 0, 0};
+    joint.anchorB = {-0.4, 0, 0};
+    joint.collideConnected = true;
+    s.joints.push_back(joint);
+    Simulation simulation(s, 0.01, "preset=matched");
+    simulation.steps(3);
+    std::vector<adapter::ContactPoint> contacts;
+    simulation.world->readContacts(contacts);
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_NEAR(contacts[0].depth, 0.2, 1e-12);
+    EXPECT_EQ(contacts[0].normalImpulse, 0.0);
+    EXPECT_LE(norm(simulation.state(b).velocity), 1e-12);
+}
+
+/// A top that Euler's step in DART's coordinates drives beyond all bounds ends as numbers that are none, not in an
+/// assertion of the library.
+TEST(DartWorld, AnEscapedRunHasNoNumbersAndComesBackBySnapshot) {
+    Scenario s = scene();
+    s.gravity = {0, -9.81, 0};
+    const int top = addBody(s, Sphere{0.25}, {0, 1, 0}, 15.0, {0.234375, 0.46875, 0.234375});
+    s.bodies[top].collides = false;
+    s.bodies[top].velocity = {4.61538, 0, 0};
+    s.bodies[top].angularVelocity = {0, 150, -4.61538};
+    Joint tip;
+    tip.name = "tip";
+    tip.type = JointType::Ball;
+    tip.bodyB = top;
+    tip.anchorB = {0, -1, 0};
+    s.joints.push_back(tip);
+    Simulation simulation(s, 1.0 / 240.0, "preset=matched");
+    ASSERT_NE(simulation.world->snapshots(), nullptr);
+    std::vector<unsigned char> start;
+    simulation.world->snapshots()->save(start);
+    simulation.steps(480);
+    EXPECT_TRUE(std::isnan(simulation.state(top).position.x));
+    ASSERT_TRUE(simulation.world->snapshots()->restore(start));
+    EXPECT_EQ(simulation.state(top).angularVelocity.y, 150.0);
+}
+
+/// FCL's narrow phases have no planes: a box of 200 m has a face where the half-space has its surface.
+TEST(DartWorld, ABallRestsOnATiltedHalfSpaceInEveryNarrowPhase) {
+    const double angle = 0.1;
+    const Vec3 normal{std::sin(angle), std::cos(angle), 0};
+    for (const std::string phase : {"fcl_mesh", "fcl_primitive", "dart", "ode"}) {
+        SCOPED_TRACE(phase);
+        Scenario s = scene(1.0);
+        s.gravity = -9.81 * normal;
+        addStatic(s, scenario::HalfSpace{normal, 0.3});
+        const int box = addBody(s, Box{{0.1, 0.1, 0.1}}, 0.4 * normal, 1.0, even(0.01));
+        s.bodies[box].pose.orientation = scenario::fromAxisAngle({0, 0, 1}, -angle);
+        Simulation simulation(s, 1.0 / 240.0, "preset=matched,narrow_phase=" + phase);
+        simulation.steps(240);
+        EXPECT_NEAR(dot(simulation.state(box).position, normal), 0.4, 1e-4);
+        // FCL's trees remember where shapes have been.
+        EXPECT_EQ(simulation.world->snapshots() != nullptr, phase == "ode" || phase == "dart");
+    }
+}
+
+TEST(DartWorld, WhatClosesALoopIsAPointTwoPointsOrAWeld) {
+    for (const JointType type : {JointType::Ball, JointType::Hinge, JointType::Fixed, JointType::Slider}) {
+        SCOPED_TRACE(scenario::jointName(type));
+        Scenario s = scene();
+        s.gravity = {};
+        const int a = addBody(s, Sphere{0.1}, {0, 0, 0}, 1.0, even(0.01));
+        const int b = addBody(s, Sphere{0.1}, {1, 0, 0}, 1.0, even(0.01));
+        for (int k = 0; k < 2; ++k) {
+            Joint joint;
+            joint.name = "joint" + std::to_string(k);
+            joint.type = type;
+            joint.bodyA = a;
+            joint.bodyB = b;
+            joint.anchorA = {0.5, 0.0, 0.0};
+            joint.anchorB = {-0.5, 0.0, 0.0};
+            s.joints.push_back(joint);
+        }
+        if (type == JointType::Slider) {
+            try {
+                Simulation simulation(s, 0.01, "preset=matched");
+                FAIL() << "a slider closed a loop";
+            } catch (const adapter::Unsupported& refusal) {
+                EXPECT_NE(std::string(refusal.what()).find("BallJointConstraint"), std::string::npos);
+            }
+            continue;
+        }
+        s.bodies[a].velocity = {0, 1, 0};
+        s.bodies[b].velocity = {0, 1, 0};
+        Simulation simulation(s, 0.01, "preset=matched");
+        simulation.steps(100);
+        EXPECT_NEAR(simulation.state(b).position.y, 1.0, 1e-6);
+        EXPECT_NEAR(simulation.state(b).position.x - simulation.state(a).position.x, 1.0, 1e-6);
+    }
+}
+
+}  // namespace
+}  // namespace rigor::test

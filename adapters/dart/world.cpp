@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A scenario as a world of DART: building, stepping, snapshots.
+#include "adapters/dart/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <dart/collision/CollisionFilter.hpp>
+#include <dart/collision/CollisionGroup.hpp>
+#include <dart/collision/CollisionObject.hpp>
+#include <dart/constraint/ContactConstraint.hpp>
+#include <dart/constraint/DantzigBoxedLcpSolver.hpp>
+#include <dart/constraint/PgsBoxedLcpSolver.hpp>
+#include <dart/dynamics/FreeJoint.hpp>
+
+#include "adapters/dart/shapes.hpp"
+#include "adapters/interface/joint_springs.hpp"
+#include "adapters/interface/planar.hpp"
+
+namespace rigor::dart_adapter {
+
+using adapter::BodyState;
+using adapter::numberSetting;
+using adapter::PairTable;
+using scenario::Body;
+using scenario::BodyType;
+
+namespace {
+
+/// Velocity of a coordinate at which a run ends [m/s] or [rad/s].
+constexpr double kMostVelocity = 1e10;
+
+/// Layers, groups and joints that keep shapes from touching.
+class Filter final : public dart::collision::CollisionFilter {
+  public:
+    Filter(const PairTable& pairs, const Model& model) : pairs_(pairs), model_(model) {}
+    bool ignoresCollision(const dart::collision::CollisionObject* one,
+                          const dart::collision::CollisionObject* two) const override {
+        const PairTable::ShapeRef &a = model_.shapes.at(one->getShapeFrame()),
+                                  &b = model_.shapes.at(two->getShapeFrame());
+        return a.body == b.body || !pairs_.mayCollide(a.body, b.body) ||
+               !pairs_.shapesMayTouch(a.body, a.shape, b.body, b.shape);
+    }
+
+  private:
+    const PairTable& pairs_;
+    const Model& model_;
+};
+
+}  // namespace
+
+DartWorld::DartWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings)
+    : scenario_(adapter::withStiffness(scenario.dimension == 2 ? adapter::planarLift(scenario) : scenario)),
+      settings_(settings),
+      dt_(dt),
+      planar_(scenario.dimension == 2),
+      pairs_(scenario_),
+      model_(buildModel(scenario_, planar_, adapter::textSetting(settings, "narrow_phase"))) {
+    stabilisation_ = {number("contact_erp"), number("contact_max_speed"), number("contact_cfm"),
+                      number("joint_erp"),   number("joint_max_speed"),   number("joint_cfm")};
+    world_ = dart::simulation::World::create("scenario");
+    world_->setTimeStep(dt);
+    world_->setGravity(toDart(scenario_.gravity));
+    makeSolver();
+    for (const Body& body : scenario_.bodies)
+        kinematic_.push_back(
+            {body.pose.position, body.pose.orientation, body.velocity, body.angularVelocity});
+    for (const int body : model_.forest.order) placeBody(model_, scenario_, planar_, body, kinematic_);
+    // FCL's trees are built where the shapes stand when they are added.
+    for (const auto& skeleton : model_.skeletons) world_->addSkeleton(skeleton);
+    for (const auto& loop : model_.loops) solver_->addConstraint(loop);
+    group_ = solver_->takeGroup();
+    option_.enableContact = true;
+    option_.maxNumContacts = static_cast<std::size_t>(adapter::integerSetting(settings_, "max_contacts"));
+    option_.collisionFilter = std::make_shared<Filter>(pairs_, model_);
+    forces_.resize(scenario_.bodies.size());
+    before_.resize(scenario_.bodies.size());
+}
+
+bool DartWorld::is(const char* key, const char* value) const {
+    return adapter::textSetting(settings_, key) == value;
+}
+double DartWorld::number(const char* key) const {
+    return numberSetting(settings_, key);
+}
+
+/// As DART has them by itself: Dantzig's method, and projected Gauss-Seidel where that fails.
+void DartWorld::makeSolver() {
+    using namespace dart::constraint;
+    const auto pgs = std::make_shared<PgsBoxedLcpSolver>();
+    PgsBoxedLcpSolver::Option option;
+    option.mMaxIteration = adapter::integerSetting(settings_, "pgs_iterations");
+    pgs->setOption(option);
+    std::unique_ptr<PairwiseSolver> solver;
+    if (is("solver", "dantzig"))
+        solver = std::make_unique<PairwiseSolver>(std::make_shared<DantzigBoxedLcpSolver>(), pgs);
+    else
+        solver = std::make_unique<PairwiseSolver>(pgs, nullptr);
+    solver->setCollisionDetector(makeDetector(adapter::textSetting(settings_, "narrow_phase")));
+    solver_ = solver.get();
+    world_->setConstraintSolver(std::move(solver));
+}
+
+void DartWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
+    if (scenario_.bodies[body].type != BodyType::Dynamic) return;
+    forces_[body].force += force;
+    forces_[body].torque += torque;
+}
+
+/// Forces of the step, gravity of bodies that have their own, and damping: a step without anything else leaves kept^dt
+/// of a velocity.
+void DartWorld::applyForces() {
+    for (std::size_t b = 0; b < scenario_.bodies.size(); ++b) {
+        const Body& body = scenario_.bodies[b];
+        if (body.type != BodyType::Dynamic) continue;
+        Wrench& wrench = forces_[b];
+        const double mass = body.massProperties.mass;
+        if (body.gravityScale != 1.0) wrench.force += mass * body.gravityScale * scenario_.gravity;
+        if (body.linearVelocityKept != 1.0 || body.angularVelocityKept != 1.0) {
+            const BodyState state = stateOf(static_cast<int>(b));
+            const Link& link = model_.forest.links[b];
+            const Quat axes = state.orientation * link.frame.orientation;
+            const Vec3 turn = rotateInverse(axes, state.angularVelocity), &m = link.moments;
+            const Vec3 momentum = rotate(axes, Vec3{m.x * turn.x, m.y * turn.y, m.z * turn.z});
+            wrench.force += (std::pow(body.linearVelocityKept, dt_) - 1.0) / dt_ * mass * state.velocity;
+            wrench.torque += (std::pow(body.angularVelocityKept, dt_) - 1.0) / dt_ * momentum;
+        }
+        if (norm(wrench.force) > 0.0) model_.bodies[b]->addExtForce(toDart(wrench.force));
+        if (norm(wrench.torque) > 0.0) model_.bodies[b]->addExtTorque(toDart(wrench.torque));
+        wrench = {};
+    }
+}
+
+/// Commands of motors and of kinematic bodies, which DART forgets after each step.
+void DartWorld::drive() {
+    for (const auto& [joint, speed] : model_.motors) joint->setCommand(0, speed);
+    for (std::size_t b = 0; b < scenario_.bodies.size(); ++b) {
+        if (scenario_.bodies[b].type != BodyType::Kinematic) continue;
+        dart::dynamics::Joint& joint = *model_.bodies[b]->getParentJoint();
+        joint.setCommands(joint.getVelocities());
+    }
+}
+
+/// DART takes the lesser friction of two shapes and the product of their restitutions.
+void DartWorld::setCoefficients(const dart::dynamics::ShapeFrame& one,
+                                const dart::dynamics::ShapeFrame& two) const {
+    const auto materialOf = [&](const dart::dynamics::ShapeFrame& frame) {
+        const PairTable::ShapeRef& shape = model_.shapes.at(&frame);
+        return scenario_.bodies[shape.body].shapes[shape.shape].material;
+    };
+    const auto aspectOf = [](const dart::dynamics::ShapeFrame& frame) {
+        return const_cast<dart::dynamics::ShapeFrame&>(frame).getDynamicsAspect();
+    };
+    const scenario::PairCoefficients& pair = pairs_.coefficients(materialOf(one), materialOf(two));
+    auto *first = aspectOf(one), *second = aspectOf(two);
+    for (auto* aspect : {first, second})
+        if (aspect->getFrictionCoeff() != pair.friction) aspect->setFrictionCoeff(pair.friction);
+    if (first->getRestitutionCoeff() != pair.restitution) first->setRestitutionCoeff(pair.restitution);
+    if (second->getRestitutionCoeff() != 1.0) second->setRestitutionCoeff(1.0);
+}
+
+/// False where no joint lets the two bodies of a contact come nearer or apart: its row of the problem is zero, which ends
+/// in an assertion of DART that numbers are none.
+bool DartWorld::movable(const dart::collision::Contact& contact) const {
+    const auto bodyOf = [&](const dart::collision::CollisionObject* object) {
+        return model_.bodies[model_.shapes.at(object->getShapeFrame()).body];
+    };
+    const auto *one = bodyOf(contact.collisionObject1), *two = bodyOf(contact.collisionObject2);
+    const dart::dynamics::ConstSkeletonPtr skeleton = one->getSkeleton();
+    if (skeleton != two->getSkeleton()) return true;
+    const Eigen::RowVectorXd row =
+        contact.normal.transpose() *
+        (skeleton->getLinearJacobian(one, one->getWorldTransform().inverse() * contact.point) -
+         skeleton->getLinearJacobian(two, two->getWorldTransform().inverse() * contact.point));
+    return row.norm() > 1e-9;
+}
+
+/// DART's own solver takes the same ones.
+bool DartWorld::isContact(const dart::collision::Contact& contact) {
+    return !dart::collision::Contact::isZeroNormal(contact.normal) && contact.penetrationDepth >= 0.0;
+}
+
+void DartWorld::findContacts() {
+    auto& constraints = solver_->beginContacts();
+    found_.clear();
+    group_->collide(option_, &found_);
+    for (std::size_t i = 0; i < found_.getNumContacts(); ++i) {
+        dart::collision::Contact& contact = found_.getContact(i);
+        if (!isContact(contact) || !movable(contact)) continue;
+        setCoefficients(*contact.collisionObject1->getShapeFrame(),
+                        *contact.collisionObject2->getShapeFrame());
+        constraints.push_back(std::make_shared<dart::constraint::ContactConstraint>(contact, dt_));
+    }
+}
+
+/// A few steps later such numbers are none, at which DART's assertions end the process.
+bool DartWorld::escaped() const {
+    return std::any_of(model_.skeletons.begin(), model_.skeletons.end(), [](const auto& skeleton) {
+        return !(skeleton->getVelocities().template lpNorm<Eigen::Infinity>() < kMostVelocity) &&
+               skeleton->getNumDofs() > 0;
+    });
+}
+
+void DartWorld::step() {
+    if (escaped_) return;
+    stabilisation_.use();
+    for (std::size_t b = 0; b < before_.size(); ++b) {
+        const BodyState state = stateOf(static_cast<int>(b));
+        before_[b] = {state.position, state.orientation};
+    }
+    applyForces();
+    drive();
+    findContacts();
+    world_->step();
+    moveKinematic();
+    escaped_ = escaped();
+}
+
+/// Kinematic bodies move exactly with their velocities.
+void DartWorld::moveKinematic() {
+    for (std::size_t b = 0; b < scenario_.bodies.size(); ++b) {
+        if (scenario_.bodies[b].type != BodyType::Kinematic) continue;
+        BodyState& state = kinematic_[b];
+        state.position += dt_ * state.velocity;
+        const double rate = norm(state.angularVelocity);
+        if (rate > 0.0)
+            state.orientation = normalized(scenario::fromAxisAngle(state.angularVelocity / rate, rate * dt_) *
+                                           state.orientation);
+        placeBody(model_, scenario_, planar_, static_cast<int>(b), kinematic_);
+    }
+}
+
+void DartWorld::setStates(std::span<const BodyState> states) {
+    std::vector<BodyState> all(scenario_.bodies.size());
+    readStates(all);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (scenario_.bodies[i].type == BodyType::Dynamic) all[i] = states[i];
+    for (const int body : model_.forest.order)
+        if (scenario_.bodies[body].type == BodyType::Dynamic)
+            placeBody(model_, scenario_, planar_, body, all);
+}
+
+/// FCL's trees of boxes remember where the shapes have been, so that contacts come in another order after a restore.
+adapter::Snapshots* DartWorld::snapshots() {
+    return is("narrow_phase", "ode") || is("narrow_phase", "dart") ? this : nullptr;
+}
+
+void DartWorld::save(std::vector<unsigned char>& bytes) const {
+    std::vector<double> numbers;
+    const auto put = [&](const Eigen::VectorXd& values) {
+        numbers.insert(numbers.end(), values.data(), values.data() + values.size());
+    };
+    const auto putVector = [&](const Vec3& v) { numbers.insert(numbers.end(), {v.x, v.y, v.z}); };
+    for (const auto& skeleton : model_.skeletons) {
+        put(skeleton->getPositions());
+        put(skeleton->getVelocities());
+    }
+    for (const BodyState& state : kinematic_) {
+        putVector(state.position);
+        const Quat& q = state.orientation;
+        numbers.insert(numbers.end(), {q.w, q.x, q.y, q.z});
+    }
+    for (const Wrench& wrench : forces_) {
+        putVector(wrench.force);
+        putVector(wrench.torque);
+    }
+    bytes.resize(numbers.size() * sizeof(double));
+    std::memcpy(bytes.data(), numbers.data(), bytes.size());
+}
+
+bool DartWorld::restore(const std::vector<unsigned char>& bytes) {
+    std::vector<unsigned char> now;
+    save(now);
+    if (bytes.size() != now.size()) return false;
+    std::vector<double> numbers(bytes.size() / sizeof(double));
+    std::memcpy(numbers.data(), bytes.data(), bytes.size());
+    const double* from = numbers.data();
+    const auto take = [&] { return *from++; };
+    const auto takeVector = [&] {
+        const double x = take(), y = take(), z = take();
+        return Vec3{x, y, z};
+    };
+    for (const auto& skeleton : model_.skeletons) {
+        const auto count = static_cast<Eigen::Index>(skeleton->getNumDofs());
+        skeleton->setPositions(Eigen::Map<const Eigen::VectorXd>(from, count));
+        skeleton->setVelocities(Eigen::Map<const Eigen::VectorXd>(from + count, count));
+        from += 2 * count;
+    }
+    for (BodyState& state : kinematic_) {
+        state.position = takeVector();
+        const double w = take(), x = take(), y = take(), z = take();
+        state.orientation = {w, x, y, z};
+    }
+    for (Wrench& wrench : forces_) {
+        wrench.force = takeVector();
+        wrench.torque = takeVector();
+    }
+    escaped_ = false;
+    return true;
+}
+
+}  // namespace rigor::dart_adapter
