@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "validation/runner/judge.hpp"
+#include "validation/runner/start_program.hpp"
 #include "validation/runner/tests/fixtures.hpp"
 
 namespace rigor::validation {
@@ -79,14 +80,20 @@ class GuestFaults : public fixtures::RunnerTest {
 
 TEST_F(GuestFaults, AreOneRowEach) {
     std::string specs = add("none") + ":preset=matched";
-    for (const GuestFault& fault : kGuestFaults) specs += "," + add(fault.name) + ":preset=matched";
+    std::size_t guests = 1;
+    for (const GuestFault& fault : kGuestFaults) {
+        // A build with sanitizers has no limits of memory: this guest would take all there is.
+        if (isSanitized() && fault.outcome == Outcome::OutOfMemory) continue;
+        specs += "," + add(fault.name) + ":preset=matched";
+        ++guests;
+    }
     auto o = options();
     o.memoryLimitMiB = 400;
     o.jobs = 2;
     const auto start = std::chrono::steady_clock::now();
     const auto done = run(fixtures::plan({fixtures::thrownBall("guests")}, specs), o);
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(100));
-    ASSERT_EQ(done.cases.size(), 1 + std::size(kGuestFaults));
+    ASSERT_EQ(done.cases.size(), guests);
     for (const CaseRow& row : done.cases) {
         SCOPED_TRACE(row.spec + ": " + row.reason);
         if (row.engine == "faulty_none") {
