@@ -54,6 +54,18 @@ class GuestCommands : public testing::Test {
     std::string before_;
 };
 
+/// Scenes of the library in which bodies fly alone have no contacts that an engine would need: the beginning of an engine
+/// has a first report at once.
+TEST_F(GuestCommands, ANewEngineRunsTheScenesOfFreeBodies) {
+    write("mine", "python");
+    for (const std::string scene :
+         {"free_flight", "free_flight_2d", "linear_drag", "quadratic_drag_2d", "spring_oscillator",
+          "spring_pendulum", "two_body_spring", "symmetric_top"}) {
+        const auto run = rigor("run " + scene + " --engine mine");
+        EXPECT_EQ(run.code, 0) << run.out;
+    }
+}
+
 TEST_F(GuestCommands, ANewEngineOfEveryGuestLanguageConforms) {
     for (const std::string language : {"python", "javascript"}) {
         SCOPED_TRACE(language);
