@@ -22,7 +22,7 @@ using adapter::Scenario;
 using adapter::Settings;
 using scenario::BodyType;
 
-OdeWorld::OdeWorld(const Scenario& scenario, double dt, const Settings& settings)
+OdeWorld::OdeWorld(Empty, const Scenario& scenario, double dt, const Settings& settings)
     : original_(scenario),
       scenario_(adapter::withStiffness(scenario.dimension == 2 ? adapter::planarLift(scenario) : scenario)),
       settings_(settings),
@@ -38,6 +38,11 @@ OdeWorld::OdeWorld(const Scenario& scenario, double dt, const Settings& settings
       pairs_(scenario_) {
     if (const double merge = numberSetting(settings, "ball_merge_deg"); merge > 0.0)
         ballMergeCosine_ = std::cos(merge * 3.14159265358979323846 / 180.0);
+}
+
+/// What has been made is freed where a body or joint is refused, as the empty world is one already.
+OdeWorld::OdeWorld(const Scenario& scenario, double dt, const Settings& settings)
+    : OdeWorld(Empty{}, scenario, dt, settings) {
     useLibrary();
     configureWorld();
     createSpace();
@@ -63,9 +68,9 @@ OdeWorld::~OdeWorld() {
         return;
     }
     records_.clear();
-    dJointGroupDestroy(contactGroup_);
-    dSpaceDestroy(space_);
-    dWorldDestroy(world_);
+    if (contactGroup_ != nullptr) dJointGroupDestroy(contactGroup_);
+    if (space_ != nullptr) dSpaceDestroy(space_);
+    if (world_ != nullptr) dWorldDestroy(world_);
 }
 
 bool OdeWorld::is(const std::string& key, const std::string& value) const {

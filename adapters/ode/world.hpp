@@ -42,6 +42,10 @@ class OdeWorld final : public adapter::World, public adapter::Snapshots, public 
     bool restore(const std::vector<unsigned char>& bytes) override;
 
   private:
+    /// A world in which nothing has been made yet.
+    struct Empty {};
+    OdeWorld(Empty, const adapter::Scenario& scenario, double dt, const adapter::Settings& settings);
+
     enum class Friction { PyramidWorld, PyramidVelocity };
 
     /// Objects of one scenario body in ODE. Addresses are stable: ODE keeps pointers into it.

@@ -254,7 +254,8 @@ Scenario swungRod(double rate, Vec3 ball, double restitution = 0.5, int dimensio
 }
 
 TEST(RodStrikesBall, CatalogueValue) {
-    const auto r = makeReference(swungRod(10, {0.5, 0.5, 0}));
+    const Scenario swung = swungRod(10, {0.5, 0.5, 0});
+    const auto r = makeReference(swung);
     EXPECT_NEAR(r->quantities(0.01, adapter::Scheme::Unknown)[0].exact, 0.05716420309, 1e-11);
 }
 
@@ -334,7 +335,8 @@ TEST(Dominoes, TheTouchIsAtTheTimeOfTheEllipticIntegral) {
     const double p = std::sqrt(9.81 * R / (R * R * 4 / 3));
     for (const int dimension : {2, 3})
         for (const double gap : {0.2, 0.3}) {
-            const auto r = makeReference(dominoes(tilt, gap, dimension));
+            const Scenario fallen = dominoes(tilt, gap, dimension);
+            const auto r = makeReference(fallen);
             // Upper corner at 2 h sin(turn) from the edge along the way, where the turn is from upright.
             const double turn = std::asin(gap / (2 * h)), end = turn - std::atan(b / h);
             const double kappa = std::cos(tilt / 2);

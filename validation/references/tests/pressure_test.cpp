@@ -90,7 +90,8 @@ TEST(SpinningDisc, SlidingAndSpinningEndTogether) {
     const Scenario faster = disc({3, 0, 0}, 4);
     const double start = 1.6 / 2.5, end = norm(*e.velocity) / (0.5 * e.angularVelocity->y);
     EXPECT_NEAR(end, 0.653, 0.5 * (0.653 - start) + 0.01);
-    const auto slow = makeReference(disc({0.5, 0, 0}, 5)), fast = makeReference(faster);
+    const Scenario slower = disc({0.5, 0, 0}, 5);
+    const auto slow = makeReference(slower), fast = makeReference(faster);
     const auto ratio = [](const Reference& one, double t) {
         const auto at = one.exact(1, t);
         return norm(*at.velocity) / (0.5 * at.angularVelocity->y);
@@ -231,7 +232,8 @@ TEST(TouchingRow, DoesNotDependOnItsUnits) {
         }
         return s;
     };
-    const auto one = makeReference(in(1, 1));
+    const Scenario unit = in(1, 1);
+    const auto one = makeReference(unit);
     for (const double speed : {1e-12, 1e-6, 1e9})
         for (const double mass : {1e-15, 1e12}) {
             const Scenario s = in(speed, mass);
