@@ -41,44 +41,32 @@ void placeBody(const Model& model, const adapter::Scenario& scenario, bool plana
                std::span<const BodyState> states) {
     const Link& link = model.forest.links[body];
     if (link.fixed) return;
-    const BodyState& state = states[body];
-    const Pose pose = Pose{state.position, state.orientation} * link.frame;
     dart::dynamics::Joint& joint = *model.bodies[body]->getParentJoint();
-    if (link.joint == kNone) return placeFree(joint, pose, state);
+    if (link.joint == kNone) {
+        const BodyState& state = states[body];
+        return placeFree(joint, Pose{state.position, state.orientation} * link.frame, state);
+    }
     if (joint.getNumDofs() == 0) return;
 
-    // The parent: pose, and velocity at the point of it that is at the child's anchor.
-    const Vec3 anchor = anchorIn(link, scenario.joints[link.joint]);
-    Pose parent;
-    Vec3 parentTurn, parentSpeed;
-    if (link.parent != kNone) {
-        const BodyState& of = states[link.parent];
-        parent = Pose{of.position, of.orientation} * model.forest.links[link.parent].frame;
-        parentTurn = of.angularVelocity;
-        parentSpeed = of.velocity + cross(parentTurn, pose * anchor - parent.position);
-    }
-    const Vec3 turn = rotateInverse(pose.orientation, state.angularVelocity - parentTurn);
-    const Pose relative = inverse(parent) * pose;
-    const Quat turned = conjugate(link.rest.orientation) * relative.orientation;
+    const adapter::LinkMotion motion = adapter::motionOf(model.forest, scenario, body, states);
     if (joint.getNumDofs() == 3) {
-        joint.setPositions(dart::dynamics::BallJoint::convertToPositions(toDart(Pose{{}, turned}).linear()));
-        joint.setVelocities(toDart(turn));
+        const Eigen::Matrix3d turned = toDart(Pose{{}, motion.turned}).linear();
+        joint.setPositions(dart::dynamics::BallJoint::convertToPositions(turned));
+        joint.setVelocities(toDart(motion.turn));
         return;
     }
-    const scenario::Joint& of = scenario.joints[link.joint];
     const bool turns = dynamic_cast<dart::dynamics::RevoluteJoint*>(&joint) != nullptr;
-    const Vec3 axis = planar && turns ? Vec3{0.0, 0.0, 1.0} : axisIn(link, of);
+    const Vec3 axis = planar && turns ? Vec3{0.0, 0.0, 1.0} : axisIn(link, scenario.joints[link.joint]);
     if (turns) {
-        const double angle = 2.0 * std::atan2(dot(Vec3{turned.x, turned.y, turned.z}, axis), turned.w);
+        const Quat& q = motion.turned;
+        const double angle = 2.0 * std::atan2(dot(Vec3{q.x, q.y, q.z}, axis), q.w);
         joint.setPosition(0, near(angle, joint.getPosition(0)));
-        joint.setVelocity(0, dot(turn, axis));
+        joint.setVelocity(0, dot(motion.turn, axis));
         return;
     }
     const Vec3 along = rotate(link.rest.orientation, axis);
-    const Vec3 speed =
-        state.velocity + cross(state.angularVelocity, pose * anchor - pose.position) - parentSpeed;
-    joint.setPosition(0, dot(relative * anchor - link.rest * anchor, along));
-    joint.setVelocity(0, dot(speed, rotate(parent.orientation, along)));
+    joint.setPosition(0, dot(motion.relative * motion.anchor - link.rest * motion.anchor, along));
+    joint.setVelocity(0, dot(motion.speed, rotate(motion.parent.orientation, along)));
 }
 
 }  // namespace rigor::dart_adapter

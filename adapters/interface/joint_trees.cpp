@@ -29,8 +29,7 @@ void setFrame(const Body& body, bool planar, Link& link) {
 
 class Search {
   public:
-    Search(const Scenario& scenario, bool planar)
-        : scenario_(scenario), used_(scenario.joints.size()) {
+    Search(const Scenario& scenario, bool planar) : scenario_(scenario), used_(scenario.joints.size()) {
         const int count = static_cast<int>(scenario.bodies.size());
         forest_.links.resize(scenario.bodies.size());
         seen_.resize(scenario.bodies.size());
@@ -145,6 +144,30 @@ double swingLimit(const Joint& joint) {
 
 Forest spanningForest(const Scenario& scenario, bool planar) {
     return Search(scenario, planar).take();
+}
+
+LinkMotion motionOf(const Forest& forest, const Scenario& scenario, int body,
+                    std::span<const BodyState> states) {
+    const Link& link = forest.links[body];
+    const BodyState& state = states[body];
+    LinkMotion m;
+    m.anchor = anchorIn(link, scenario.joints[link.joint]);
+    m.pose = Pose{state.position, state.orientation} * link.frame;
+    // Velocity of the parent's point that is at the child's anchor.
+    Vec3 parentTurn, parentSpeed;
+    if (link.parent != kNone) {
+        const BodyState& of = states[link.parent];
+        m.parent = Pose{of.position, of.orientation} * forest.links[link.parent].frame;
+        parentTurn = of.angularVelocity;
+        parentSpeed = of.velocity + cross(parentTurn, m.pose * m.anchor - m.parent.position);
+    }
+    m.speed =
+        state.velocity + cross(state.angularVelocity, m.pose * m.anchor - m.pose.position) - parentSpeed;
+    m.turn = rotateInverse(m.pose.orientation, state.angularVelocity - parentTurn);
+    m.relative = inverse(m.parent) * m.pose;
+    m.turned = conjugate(link.rest.orientation) * m.relative.orientation;
+    if (m.turned.w < 0.0) m.turned = {-m.turned.w, -m.turned.x, -m.turned.y, -m.turned.z};
+    return m;
 }
 
 Vec3 anchorIn(const Link& link, const Joint& joint) {

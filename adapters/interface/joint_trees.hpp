@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "adapters/interface/types.hpp"
@@ -44,13 +45,26 @@ bool canBreak(const scenario::Joint& joint);
 /// Greatest angle between the axes of A and B [rad]; beyond pi where nothing bounds it.
 double swingLimit(const scenario::Joint& joint);
 
+/// Motion of a body on a joint against the one that it hangs on.
+struct LinkMotion {
+    Vec3 anchor;    ///< the joint's anchor in the body's frame [m]
+    Pose pose;      ///< the body's frame in the world
+    Pose parent;    ///< that of the one it hangs on; the world's own where there is none
+    Pose relative;  ///< the body's frame in its parent's
+    Quat turned;    ///< turn since the initial poses, in the body's axes; w >= 0
+    Vec3 turn;      ///< relative angular velocity, in the body's axes [rad/s]
+    Vec3 speed;     ///< velocity of the anchor against the parent's point there, world frame [m/s]
+};
+/// `states` are those of all bodies, by scenario index.
+LinkMotion motionOf(const Forest& forest, const Scenario& scenario, int body,
+                    std::span<const BodyState> states);
+
 /// Anchor and axis of a joint as the child of a link has them, in the link's frame. The axis points so that its
 /// coordinate is the scenario's.
 Vec3 anchorIn(const Link& link, const scenario::Joint& joint);
 Vec3 axisIn(const Link& link, const scenario::Joint& joint);
 /// The three axes of a six_dof. `scenario` gives the initial poses.
-std::array<Vec3, 3> sixDofAxesIn(const Link& link, const Scenario& scenario,
-                                 const scenario::Joint& joint);
+std::array<Vec3, 3> sixDofAxesIn(const Link& link, const Scenario& scenario, const scenario::Joint& joint);
 /// Axis of a wheel's pin. `scenario` gives the initial poses.
 Vec3 spinIn(const Link& link, const Scenario& scenario, const scenario::Joint& joint);
 

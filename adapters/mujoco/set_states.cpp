@@ -53,28 +53,12 @@ void MujocoWorld::placeFree(int body, const Pose& pose, const BodyState& state) 
 void MujocoWorld::placeLink(int body, std::span<const BodyState> states) {
     const Link& link = model_.forest.links[body];
     if (link.fixed) return;
-    const Pose pose = linkPose(body, states[body]);
-    if (link.joint == kNone) return placeFree(body, pose, states[body]);
+    if (link.joint == kNone) return placeFree(body, linkPose(body, states[body]), states[body]);
     const mjModel& model = *model_.model;
     const Joint& joint = scenario_.joints[link.joint];
     const int id = model_.bodies[body], first = model.body_jntadr[id];
-    // The parent: pose, and velocity at the point of it that is at the child's anchor.
-    const Vec3 anchor = anchorIn(link, joint);
-    Pose parent;
-    Vec3 parentTurn, parentSpeed;
-    if (link.parent != kNone) {
-        const BodyState& state = states[link.parent];
-        parent = linkPose(link.parent, state);
-        parentTurn = state.angularVelocity;
-        parentSpeed = state.velocity + cross(parentTurn, pose * anchor - parent.position);
-    }
-    const BodyState& state = states[body];
-    const Vec3 speed =
-        state.velocity + cross(state.angularVelocity, pose * anchor - pose.position) - parentSpeed;
-    const Vec3 turn = rotateInverse(pose.orientation, state.angularVelocity - parentTurn);
-    const Pose relative = inverse(parent) * pose;
-    Quat turned = conjugate(link.rest.orientation) * relative.orientation;
-    if (turned.w < 0.0) turned = {-turned.w, -turned.x, -turned.y, -turned.z};
+    const auto [anchor, own, parent, relative, turned, turn, speed] =
+        adapter::motionOf(model_.forest, scenario_, body, states);
     for (int k = 0; k < model.body_jntnum[id]; ++k) {
         mjtNum* q = data_->qpos + model.jnt_qposadr[first + k];
         mjtNum* v = data_->qvel + model.jnt_dofadr[first + k];
@@ -90,13 +74,13 @@ void MujocoWorld::placeLink(int body, std::span<const BodyState> states) {
                 break;
             default: {
                 // A reversed wheel or six_dof slides along its own axis, everything else along one of its parent's.
-                const bool own =
+                const bool byItself =
                     link.reversed && (joint.type == JointType::Wheel || joint.type == JointType::SixDof);
-                const Vec3 along = rotate(own ? Quat{} : link.rest.orientation, axis);
-                const Vec3 moved = own ? anchor - inverse(relative) * (link.rest * anchor)
-                                       : relative * anchor - link.rest * anchor;
+                const Vec3 along = rotate(byItself ? Quat{} : link.rest.orientation, axis);
+                const Vec3 moved = byItself ? anchor - inverse(relative) * (link.rest * anchor)
+                                            : relative * anchor - link.rest * anchor;
                 q[0] = dot(moved, along);
-                v[0] = dot(speed, rotate(own ? pose.orientation : parent.orientation, along));
+                v[0] = dot(speed, rotate(byItself ? own.orientation : parent.orientation, along));
             }
         }
     }

@@ -100,9 +100,9 @@ function changeNode(change: Change | null, index: number): HTMLElement {
   const value = (v: Change['metrics'][number]['before'], unit: string) =>
     `${format(inShownUnit(v, unit))}${unit === '1' ? '' : ` ${shownUnit(unit)}`}`;
   const notes = [
-    change.changed_scenarios.length ? `Physics differ in ${change.changed_scenarios.join(', ')}: not compared.` : '',
-    change.only_before.length ? `${counted(change.only_before.length, 'case')} gone.` : '',
-    change.only_after.length ? `${counted(change.only_after.length, 'case')} new.` : '',
+    change.changed_scenarios.length ? `Physics differ in ${change.changed_scenarios.join(', ')}: not compared` : '',
+    change.only_before.length ? `${counted(change.only_before.length, 'case')} gone` : '',
+    change.only_after.length ? `${counted(change.only_after.length, 'case')} new` : '',
     ...change.environment,
   ].filter(Boolean);
   return el(
@@ -125,7 +125,7 @@ function changeNode(change: Change | null, index: number): HTMLElement {
       ['Engine', 'Errors better', 'worse', 'same', 'p', 'Time of a step, after ÷ before', 'p'],
       change.specs.map(specRow),
     ),
-    notes.length ? el('p', { class: 'muted small' }, notes.join('; ')) : null,
+    notes.length ? el('p', { class: 'muted small' }, `${notes.join('; ')}.`) : null,
   );
 }
 
