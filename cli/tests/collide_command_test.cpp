@@ -99,8 +99,7 @@ TEST(CollideCommand, RandomPairs) {
         EXPECT_NE(other.at("cases").at(i).at("truth"), truth);
     }
     const json deep = collideJson("--random 8 --dimension 2 --kinds deep --pairs box-circle --engines rigor");
-    for (const json& c : deep.at("cases"))
-        EXPECT_EQ(c.at("tags"), json({"deep", "box", "circle"}));
+    for (const json& c : deep.at("cases")) EXPECT_EQ(c.at("tags"), json({"deep", "box", "circle"}));
     EXPECT_EQ(rigor("collide analytic --seed 3").code, 2) << "a seed of nothing";
     const auto odd = rigor("collide --random 3 --kinds odd");
     EXPECT_EQ(odd.code, 2);

@@ -214,7 +214,8 @@ TEST_F(Outside, TrajectoriesThatAreMissingOrDamagedAreMadeAgain) {
 }
 
 TEST_F(Outside, NoFileHandlesStopTheRun) {
-    if (isSanitized()) GTEST_SKIP() << "the sanitizer of undefined behaviour needs handles of its own for its checks";
+    if (isSanitized())
+        GTEST_SKIP() << "the sanitizer of undefined behaviour needs handles of its own for its checks";
     struct rlimit before {};
     getrlimit(RLIMIT_NOFILE, &before);
     for (rlim_t handles = 6; handles < 24; ++handles) {
