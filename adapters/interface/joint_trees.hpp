@@ -49,7 +49,7 @@ double swingLimit(const scenario::Joint& joint);
 struct LinkMotion {
     Vec3 anchor;    ///< the joint's anchor in the body's frame [m]
     Pose pose;      ///< the body's frame in the world
-    Pose parent;    ///< that of the one it hangs on; the world's own where there is none
+    Pose parent;    ///< frame of the one it hangs on; the world's own where there is none
     Pose relative;  ///< the body's frame in its parent's
     Quat turned;    ///< turn since the initial poses, in the body's axes; w >= 0
     Vec3 turn;      ///< relative angular velocity, in the body's axes [rad/s]

@@ -40,7 +40,7 @@ OdeWorld::OdeWorld(Empty, const Scenario& scenario, double dt, const Settings& s
         ballMergeCosine_ = std::cos(merge * 3.14159265358979323846 / 180.0);
 }
 
-/// What has been made is freed where a body or joint is refused, as the empty world is one already.
+/// The destructor frees what has been made where a body or joint is refused, as the empty world is one already.
 OdeWorld::OdeWorld(const Scenario& scenario, double dt, const Settings& settings)
     : OdeWorld(Empty{}, scenario, dt, settings) {
     useLibrary();

@@ -25,7 +25,7 @@ Loop heavyChain(double step, double endMass, double turn) {
         joint.mName = "joint" + std::to_string(i);
         BodyNode::Properties body;
         body.mName = "link" + std::to_string(i);
-        // From the middle of a link to its lower end, and from its upper end to its middle.
+        // A link hangs by its upper end on the lower end of the one before.
         joint.mT_ChildBodyToJoint.translation() = Eigen::Vector3d(0, 0.1, 0);
         if (parent != nullptr) joint.mT_ParentBodyToJoint.translation() = Eigen::Vector3d(0, -0.1, 0);
         if (parent == nullptr)
