@@ -34,6 +34,14 @@ int openLock(const fs::path& file, int flags) {
     return lock;
 }
 
+/// Removes a folder and then its lock. Without a free file handle a folder cannot be read, and only goes if it is empty:
+/// one that is left keeps its lock, by which a later run finds it.
+void removeWithLock(const fs::path& folder) {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    if (!fs::exists(folder, ignored) || fs::remove(folder, ignored)) fs::remove(lockOf(folder), ignored);
+}
+
 /// Removes the folders whose owner has ended without removing them: their locks are free.
 void removeAbandoned() {
     std::error_code ignored;
@@ -42,10 +50,7 @@ void removeAbandoned() {
         if (!file.filename().string().starts_with(kPrefix) || file.extension() != ".lock") continue;
         const int lock = openLock(file, 0);
         if (lock < 0) continue;  // The folder belongs to another user.
-        if (flock(lock, LOCK_EX | LOCK_NB) == 0) {
-            fs::remove_all(fs::path(file).replace_extension(), ignored);
-            fs::remove(file, ignored);
-        }
+        if (flock(lock, LOCK_EX | LOCK_NB) == 0) removeWithLock(fs::path(file).replace_extension());
         close(lock);
     }
 }
@@ -73,9 +78,7 @@ ScratchFolder::ScratchFolder() {
 }
 
 ScratchFolder::~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-    fs::remove(lockOf(path_), ignored);
+    removeWithLock(path_);
     close(lock_);
 }
 

@@ -293,5 +293,31 @@ TEST(ScratchFolders, OfTheDeadAreRemoved) {
     unsetenv("TMPDIR");
 }
 
+/// Without a free file handle an empty folder goes, and one with files stays with its lock until the next is made.
+TEST(ScratchFolders, AreNotForgottenWhereThereAreNoFileHandles) {
+    const ScratchFolder temporary;
+    setenv("TMPDIR", temporary.path().c_str(), 1);
+    const auto entries = [&] {
+        return std::distance(std::filesystem::directory_iterator(temporary.path()), {});
+    };
+    for (const bool isEmpty : {true, false}) {
+        const pid_t child = fork();
+        if (child == 0) {
+            {
+                const ScratchFolder folder;
+                if (!isEmpty) std::ofstream(folder.path() / "request.json") << "{}";
+                const struct rlimit none {};
+                setrlimit(RLIMIT_NOFILE, &none);
+            }
+            _exit(0);
+        }
+        waitpid(child, nullptr, 0);
+        EXPECT_EQ(entries(), isEmpty ? 0 : 2);
+    }
+    { const ScratchFolder next; }
+    EXPECT_EQ(entries(), 0);
+    unsetenv("TMPDIR");
+}
+
 }  // namespace
 }  // namespace rigor::validation
