@@ -16,7 +16,7 @@ using adapter::ContactPoint;
 using scenario::BodyType;
 
 BodyState DartWorld::stateOf(int body) const {
-    const BodyState& start = kinematic_[body];
+    const BodyState& start = prescribed_[body];
     switch (scenario_.bodies[body].type) {
         case BodyType::Static:
             return {start.position, start.orientation, {}, {}};

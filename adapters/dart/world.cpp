@@ -5,7 +5,6 @@
 #include "adapters/dart/world.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <dart/collision/CollisionFilter.hpp>
 #include <dart/collision/CollisionGroup.hpp>
@@ -65,9 +64,9 @@ DartWorld::DartWorld(const adapter::Scenario& scenario, double dt, const adapter
     world_->setGravity(toDart(scenario_.gravity));
     makeSolver();
     for (const Body& body : scenario_.bodies)
-        kinematic_.push_back(
+        prescribed_.push_back(
             {body.pose.position, body.pose.orientation, body.velocity, body.angularVelocity});
-    for (const int body : model_.forest.order) placeBody(model_, scenario_, planar_, body, kinematic_);
+    for (const int body : model_.forest.order) placeBody(model_, scenario_, planar_, body, prescribed_);
     // FCL's trees are built where the shapes stand when they are added.
     for (const auto& skeleton : model_.skeletons) world_->addSkeleton(skeleton);
     for (const auto& loop : model_.loops) solver_->addConstraint(loop);
@@ -109,23 +108,19 @@ void DartWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
     forces_[body].torque += torque;
 }
 
-/// Forces of the step, gravity of bodies that have their own, and damping: a step without anything else leaves kept^dt
-/// of a velocity.
+/// Forces of the step, gravity of bodies that have their own, and damping.
 void DartWorld::applyForces() {
     for (std::size_t b = 0; b < scenario_.bodies.size(); ++b) {
         const Body& body = scenario_.bodies[b];
         if (body.type != BodyType::Dynamic) continue;
         Wrench& wrench = forces_[b];
-        const double mass = body.massProperties.mass;
-        if (body.gravityScale != 1.0) wrench.force += mass * body.gravityScale * scenario_.gravity;
+        if (body.gravityScale != 1.0)
+            wrench.force += body.massProperties.mass * body.gravityScale * scenario_.gravity;
         if (body.linearVelocityKept != 1.0 || body.angularVelocityKept != 1.0) {
-            const BodyState state = stateOf(static_cast<int>(b));
-            const Link& link = model_.forest.links[b];
-            const Quat axes = state.orientation * link.frame.orientation;
-            const Vec3 turn = rotateInverse(axes, state.angularVelocity), &m = link.moments;
-            const Vec3 momentum = rotate(axes, Vec3{m.x * turn.x, m.y * turn.y, m.z * turn.z});
-            wrench.force += (std::pow(body.linearVelocityKept, dt_) - 1.0) / dt_ * mass * state.velocity;
-            wrench.torque += (std::pow(body.angularVelocityKept, dt_) - 1.0) / dt_ * momentum;
+            const adapter::Damping damping =
+                adapter::dampingOf(body, model_.forest.links[b], stateOf(static_cast<int>(b)), dt_);
+            wrench.force += damping.force;
+            wrench.torque += damping.torque;
         }
         if (norm(wrench.force) > 0.0) model_.bodies[b]->addExtForce(toDart(wrench.force));
         if (norm(wrench.torque) > 0.0) model_.bodies[b]->addExtTorque(toDart(wrench.torque));
@@ -222,13 +217,13 @@ void DartWorld::step() {
 void DartWorld::moveKinematic() {
     for (std::size_t b = 0; b < scenario_.bodies.size(); ++b) {
         if (scenario_.bodies[b].type != BodyType::Kinematic) continue;
-        BodyState& state = kinematic_[b];
+        BodyState& state = prescribed_[b];
         state.position += dt_ * state.velocity;
         const double rate = norm(state.angularVelocity);
         if (rate > 0.0)
             state.orientation = normalized(scenario::fromAxisAngle(state.angularVelocity / rate, rate * dt_) *
                                            state.orientation);
-        placeBody(model_, scenario_, planar_, static_cast<int>(b), kinematic_);
+        placeBody(model_, scenario_, planar_, static_cast<int>(b), prescribed_);
     }
 }
 
@@ -257,7 +252,7 @@ void DartWorld::save(std::vector<unsigned char>& bytes) const {
         put(skeleton->getPositions());
         put(skeleton->getVelocities());
     }
-    for (const BodyState& state : kinematic_) {
+    for (const BodyState& state : prescribed_) {
         putVector(state.position);
         const Quat& q = state.orientation;
         numbers.insert(numbers.end(), {q.w, q.x, q.y, q.z});
@@ -288,7 +283,7 @@ bool DartWorld::restore(const std::vector<unsigned char>& bytes) {
         skeleton->setVelocities(Eigen::Map<const Eigen::VectorXd>(from + count, count));
         from += 2 * count;
     }
-    for (BodyState& state : kinematic_) {
+    for (BodyState& state : prescribed_) {
         state.position = takeVector();
         const double w = take(), x = take(), y = take(), z = take();
         state.orientation = {w, x, y, z};

@@ -64,10 +64,10 @@ class DartWorld final : public adapter::World, public adapter::Snapshots, public
     PairwiseSolver* solver_ = nullptr;  ///< owned by the world
     dart::collision::CollisionGroupPtr group_;
     dart::collision::CollisionOption option_;
-    dart::collision::CollisionResult found_;     ///< contacts of the last step, with their forces
-    std::vector<adapter::BodyState> kinematic_;  ///< states of kinematic bodies, by scenario body
-    std::vector<Wrench> forces_;                 ///< forces of the coming step, by scenario body
-    std::vector<Pose> before_;                   ///< poses at the start of the last step, by scenario body
+    dart::collision::CollisionResult found_;      ///< contacts of the last step, with their forces
+    std::vector<adapter::BodyState> prescribed_;  ///< states of static and kinematic bodies
+    std::vector<Wrench> forces_;                  ///< forces of the coming step, by scenario body
+    std::vector<Pose> before_;                    ///< poses at the start of the last step, by scenario body
 };
 
 }  // namespace rigor::dart_adapter

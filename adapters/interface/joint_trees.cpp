@@ -170,6 +170,15 @@ LinkMotion motionOf(const Forest& forest, const Scenario& scenario, int body,
     return m;
 }
 
+Damping dampingOf(const Body& body, const Link& link, const BodyState& state, double dt) {
+    const Quat axes = state.orientation * link.frame.orientation;
+    const Vec3 turn = rotateInverse(axes, state.angularVelocity), &m = link.moments;
+    const Vec3 momentum = rotate(axes, Vec3{m.x * turn.x, m.y * turn.y, m.z * turn.z});
+    const double linear = (std::pow(body.linearVelocityKept, dt) - 1.0) / dt;
+    const double angular = (std::pow(body.angularVelocityKept, dt) - 1.0) / dt;
+    return {linear * body.massProperties.mass * state.velocity, angular * momentum};
+}
+
 Vec3 anchorIn(const Link& link, const Joint& joint) {
     return inverse(link.frame) * (link.reversed ? joint.anchorA : joint.anchorB);
 }

@@ -59,6 +59,13 @@ struct LinkMotion {
 LinkMotion motionOf(const Forest& forest, const Scenario& scenario, int body,
                     std::span<const BodyState> states);
 
+/// Force and torque at the centre of mass that damp a body: a step of `dt` with nothing else leaves kept^dt of its
+/// velocities.
+struct Damping {
+    Vec3 force, torque;  ///< world frame [N], [N m]
+};
+Damping dampingOf(const scenario::Body& body, const Link& link, const BodyState& state, double dt);
+
 /// Anchor and axis of a joint as the child of a link has them, in the link's frame. The axis points so that its
 /// coordinate is the scenario's.
 Vec3 anchorIn(const Link& link, const scenario::Joint& joint);

@@ -5,7 +5,6 @@
 #include "adapters/mujoco/world.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <numbers>
 #include <stdexcept>
@@ -116,16 +115,10 @@ void MujocoWorld::addDamping() {
         const Link& link = model_.forest.links[b];
         const bool damped = body.linearVelocityKept != 1.0 || body.angularVelocityKept != 1.0;
         if (body.type != BodyType::Dynamic || link.joint == kNone || !damped) continue;
-        const adapter::BodyState state = stateOf(static_cast<int>(b));
-        const Quat axes = state.orientation * link.frame.orientation;
-        const Vec3 turn = rotateInverse(axes, state.angularVelocity), &moments = link.moments;
-        const Vec3 momentum = rotate(axes, Vec3{moments.x * turn.x, moments.y * turn.y, moments.z * turn.z});
-        // A step without anything else leaves kept^dt of the velocity.
-        const double linear = (std::pow(body.linearVelocityKept, dt_) - 1.0) / dt_;
-        const double angular = (std::pow(body.angularVelocityKept, dt_) - 1.0) / dt_;
+        const adapter::Damping damping = adapter::dampingOf(body, link, stateOf(static_cast<int>(b)), dt_);
         mjtNum* applied = data_->xfrc_applied + 6 * model_.bodies[b];
-        toMujoco(fromMujoco(applied) + linear * body.massProperties.mass * state.velocity, applied);
-        toMujoco(fromMujoco(applied + 3) + angular * momentum, applied + 3);
+        toMujoco(fromMujoco(applied) + damping.force, applied);
+        toMujoco(fromMujoco(applied + 3) + damping.torque, applied + 3);
     }
 }
 
