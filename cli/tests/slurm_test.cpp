@@ -103,9 +103,9 @@ std::string output(const std::string& command) {
 }
 
 bool happens(const std::function<bool()>& event, int seconds) {
-    for (int i = 0; i < 5 * seconds; ++i) {
+    for (int i = 0; i < 50 * seconds; ++i) {
         if (event()) return true;
-        usleep(200000);
+        usleep(20000);
     }
     return false;
 }
@@ -129,6 +129,15 @@ class Sweep : public testing::Test {
     }
     static bool ends() {
         return happens([] { return output("squeue -h").empty(); }, 600);
+    }
+    /// Number of a shard, `first` or a later one, that has begun to store cases; "": none.
+    std::string shardAtWork(int first) const {
+        for (int k = first; k <= kShards; ++k)
+            for (const auto& entry : fs::directory_iterator(local))
+                if (entry.path().filename().string().starts_with("rigor-sweep-" + std::to_string(k) + "-") &&
+                    fs::exists(entry.path() / "run" / "results.sqlite"))
+                    return std::to_string(k);
+        return "";
     }
     std::string in(const std::string& name) const { return (scratch_.path() / name).string(); }
 
@@ -156,10 +165,12 @@ TEST_F(Sweep, WithDisturbancesIsTheUndisturbedRun) {
     ASSERT_TRUE(happens([&] { return isRunning("1") || isRunning("2"); }, 60)) << output("squeue");
     EXPECT_TRUE(happens(
         [&] { return output("pkill -KILL -c -f '__case " + temporary.string() + "'") != "0\n"; }, 20));
-    ASSERT_TRUE(happens([&] { return isRunning("4"); }, 300)) << output("squeue");
-    sleep(1);
-    const std::string job = output("squeue -h -r -o '%A %K' | awk '$2 == 4 { print $1 }' | tr -d '\\n'");
+    std::string number;
+    ASSERT_TRUE(happens([&] { return !(number = shardAtWork(4)).empty(); }, 300)) << output("squeue");
+    const std::string job =
+        output("squeue -h -r -o '%A %K' | awk '$2 == " + number + " { print $1 }' | tr -d '\\n'");
     EXPECT_EQ(output("scontrol requeue " + job), "");
+    EXPECT_THAT(output("scontrol show job " + job), HasSubstr("Restarts=1"));
     ASSERT_TRUE(ends()) << output("squeue");
 
     const auto whole = rigor("validate smoke --engines rigor,bullet -q --out " + in("whole"));
