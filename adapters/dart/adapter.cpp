@@ -20,6 +20,9 @@ using adapter::Option;
 constexpr const char* kConstraints = "dart/constraint: BallJointConstraint and WeldJointConstraint";
 constexpr const char* kLimits = "dart/dynamics/Joint.hpp, setPositionLowerLimit: of single coordinates";
 
+constexpr const char* kCones =
+    "message of OdeCollisionDetector: unsupported shape type 'ConeShape'; with FCL cones are not found";
+
 class DartEngine final : public adapter::Engine, public adapter::DynamicsEngine {
   public:
     adapter::EngineInfo info() const override { return {"dart", DART_VERSION, "f64", "DART", ""}; }
@@ -29,10 +32,11 @@ class DartEngine final : public adapter::Engine, public adapter::DynamicsEngine 
         c.dynamics = c.collision = true;
         c.dimensions = {3};
         c.planar = true;
-        c.shapes = {"sphere",     "box",           "capsule", "cylinder", "hull",
-                    "half_space", "triangle_mesh", "circle",  "polygon",  "half_plane"};
-        c.joints = {"ball",   "hinge",        "hinge.limit",  "hinge.motor",   "hinge.spring",
-                    "slider", "slider.limit", "slider.motor", "slider.spring", "fixed"};
+        c.shapes = {"sphere",     "box",           "capsule",      "cylinder", "ellipsoid", "hull",
+                    "half_space", "triangle_mesh", "height_field", "circle",   "polygon",   "half_plane"};
+        c.joints = {"ball",          "ball.break",  "hinge",      "hinge.limit",  "hinge.motor",
+                    "hinge.spring",  "hinge.break", "slider",     "slider.limit", "slider.motor",
+                    "slider.spring", "fixed",       "fixed.break"};
         c.contactImpulses = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.contactFilters = c.shapeFilters = true;
@@ -43,6 +47,9 @@ class DartEngine final : public adapter::Engine, public adapter::DynamicsEngine 
             {"distance.spring", kConstraints},
             {"distance.break", kConstraints},
             {"ball.limit", kLimits},
+            {"cone_twist", kLimits},
+            {"slider.break", kConstraints},
+            {"cone", kCones},
             {"static_friction", "dart/dynamics/ShapeFrame.hpp, DynamicsAspectProperties: one coefficient"},
             {"rolling_friction", "dart/dynamics/ShapeFrame.hpp, DynamicsAspectProperties: none of rolling"},
             {"torsional_friction", "dart/dynamics/ShapeFrame.hpp, DynamicsAspectProperties: none of rolling"},

@@ -59,7 +59,7 @@ std::vector<LedgerEntry> DartWorld::ledger() const {
     if (!scenario_.joints.empty()) {
         add("joints", "between two bodies", "reduced coordinates of trees");
         if (!model_.loops.empty())
-            add("loops", "rigid", std::to_string(model_.loops.size()) + " constraints",
+            add("loops", "rigid", std::to_string(model_.loops.size()) + " joints as constraints",
                 "points are pulled together by the error reduction of joints");
     }
     if (!model_.motors.empty()) add("motors", "speed and largest force", "servo, bounded");

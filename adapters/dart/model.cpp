@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "adapters/dart/model.hpp"
 
-#include <dart/constraint/BallJointConstraint.hpp>
-#include <dart/constraint/WeldJointConstraint.hpp>
 #include <dart/dynamics/BallJoint.hpp>
 #include <dart/dynamics/FreeJoint.hpp>
 #include <dart/dynamics/PlanarJoint.hpp>
@@ -21,12 +19,8 @@ using dart::dynamics::SkeletonPtr;
 using scenario::AxisMode;
 using scenario::Body;
 using scenario::BodyType;
-using scenario::Joint;
 using scenario::JointAxis;
 using scenario::JointType;
-
-/// Distance of the two points that hold a hinge which closes a loop [m].
-constexpr double kHingeArm = 0.1;
 
 class Builder {
   public:
@@ -36,7 +30,6 @@ class Builder {
         model_.bodies.resize(scenario.bodies.size());
         model_.shapeNodes.resize(scenario.bodies.size());
         for (const int body : model_.forest.order) addBody(body);
-        for (const int joint : model_.forest.loops) closeLoop(scenario.joints[joint]);
     }
     Model take() { return std::move(model_); }
 
@@ -192,34 +185,6 @@ class Builder {
         shape->setRelativeTransform(toDart(pose));
         if (model_.shapeNodes[body][k] == nullptr) model_.shapeNodes[body][k] = shape;
         model_.shapes[shape] = {body, static_cast<int>(k)};
-    }
-
-    /// A ball is a point, a fixed joint a weld, a hinge two points on its axis.
-    void closeLoop(const Joint& joint) {
-        using namespace dart::constraint;
-        if (!adapter::canCloseLoop(joint) || adapter::canBreak(joint))
-            throw adapter::notInLibrary(
-                "dart", std::string("a ") + jointName(joint.type) + " that closes a loop",
-                "dart/constraint: BallJointConstraint and WeldJointConstraint", "joint '" + joint.name + "'");
-        const auto movable = [&](int body) { return body != kNone && !link(body).fixed; };
-        const int body = movable(joint.bodyB) ? joint.bodyB : joint.bodyA;
-        const int other = body == joint.bodyB ? joint.bodyA : joint.bodyB;
-        BodyNode *one = model_.bodies[body], *two = movable(other) ? model_.bodies[other] : nullptr;
-        if (joint.type == JointType::Fixed) {
-            model_.loops.push_back(two != nullptr ? std::make_shared<WeldJointConstraint>(one, two)
-                                                  : std::make_shared<WeldJointConstraint>(one));
-            return;
-        }
-        const Pose pose = scenario_.bodies[body].pose;
-        const Vec3 anchor = pose * (body == joint.bodyB ? joint.anchorB : joint.anchorA);
-        const Vec3 axis = rotate(pose.orientation, body == joint.bodyB ? joint.axisB : joint.axisA);
-        const auto hold = [&](const Vec3& point) {
-            model_.loops.push_back(two != nullptr
-                                       ? std::make_shared<BallJointConstraint>(one, two, toDart(point))
-                                       : std::make_shared<BallJointConstraint>(one, toDart(point)));
-        };
-        hold(anchor);
-        if (joint.type == JointType::Hinge && !planar_) hold(anchor + kHingeArm * axis);
     }
 
     const adapter::Scenario& scenario_;

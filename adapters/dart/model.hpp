@@ -4,13 +4,13 @@
 // A scenario as DART's skeletons, with the tables that lead from one to the other.
 #pragma once
 
-#include <dart/constraint/ConstraintBase.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "adapters/dart/convert.hpp"
+#include "adapters/dart/loops.hpp"
 #include "adapters/interface/joint_trees.hpp"
 #include "adapters/interface/pair_table.hpp"
 
@@ -27,7 +27,7 @@ struct Model {
     std::vector<std::vector<dart::dynamics::ShapeNode*>>
         shapeNodes;  ///< the first of a shape's, by body and shape
     std::unordered_map<const dart::dynamics::ShapeFrame*, adapter::PairTable::ShapeRef> shapes;
-    std::vector<dart::constraint::ConstraintBasePtr> loops;  ///< constraints of joints that close loops
+    std::vector<LoopJoint> loops;  ///< joints beside the trees, made once the bodies are placed
     /// Joints that a motor drives, with the speed it strives for [u/s].
     std::vector<std::pair<dart::dynamics::Joint*, double>> motors;
 };

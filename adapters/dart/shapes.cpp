@@ -11,6 +11,8 @@
 #include <dart/dynamics/BoxShape.hpp>
 #include <dart/dynamics/CapsuleShape.hpp>
 #include <dart/dynamics/CylinderShape.hpp>
+#include <dart/dynamics/EllipsoidShape.hpp>
+#include <dart/dynamics/HeightmapShape.hpp>
 #include <dart/dynamics/MeshShape.hpp>
 #include <dart/dynamics/PlaneShape.hpp>
 #include <dart/dynamics/SphereShape.hpp>
@@ -24,6 +26,7 @@ namespace {
 using scenario::ConvexHull;
 using scenario::fromAxisAngle;
 using scenario::HalfSpace;
+using scenario::HeightField;
 using scenario::HullMesh;
 using scenario::TriangleMesh;
 
@@ -102,6 +105,27 @@ std::vector<DartShape> capsule(const scenario::Capsule& of, bool whole) {
             {cap, {{0.0, -of.halfLength, 0.0}, {}}}};
 }
 
+/// DART's height maps have their heights along z and their rows along -y, and split cells as the format does.
+DartShape heightField(const HeightField& field, const std::string& narrowPhase) {
+    if (narrowPhase != "ode")
+        throw adapter::notInLibrary(
+            "dart", "shape 'height_field' with narrow_phase=" + narrowPhase,
+            "message of FCLCollisionDetector: unsupported shape type [HeightmapShape (d)]");
+    const auto map = std::make_shared<dart::dynamics::HeightmapShaped>();
+    map->setHeightField(static_cast<std::size_t>(field.columns), static_cast<std::size_t>(field.rows),
+                        field.heights);
+    map->setScale({field.spacingX, field.spacingZ, 1.0});
+    return {map, {{}, kAlongZ}};
+}
+
+DartShape ellipsoid(const scenario::Ellipsoid& of, const std::string& narrowPhase) {
+    if (narrowPhase == "ode")
+        throw adapter::notInLibrary(
+            "dart", "shape 'ellipsoid' with narrow_phase=ode",
+            "message of OdeCollisionDetector: unsupported shape type 'EllipsoidShape'");
+    return {std::make_shared<dart::dynamics::EllipsoidShape>(2.0 * toDart(of.halfAxes)), {}};
+}
+
 }  // namespace
 
 std::vector<DartShape> makeShapes(const adapter::Geometry& geometry, const std::string& narrowPhase) {
@@ -121,6 +145,8 @@ std::vector<DartShape> makeShapes(const adapter::Geometry& geometry, const std::
         return {cylinder(s->radius, s->halfLength)};
     if (const auto* s = std::get_if<ConvexHull>(&geometry)) return {{meshShape(surfaceOf(*s)), {}}};
     if (const auto* s = std::get_if<TriangleMesh>(&geometry)) return {{meshShape(*s), {}}};
+    if (const auto* s = std::get_if<HeightField>(&geometry)) return {heightField(*s, narrowPhase)};
+    if (const auto* s = std::get_if<scenario::Ellipsoid>(&geometry)) return {ellipsoid(*s, narrowPhase)};
     throw adapter::notInAdapter("dart", "shape '" + name + "'");
 }
 

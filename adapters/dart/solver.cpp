@@ -9,10 +9,14 @@
 namespace rigor::dart_adapter {
 
 dart::collision::CollisionGroupPtr PairwiseSolver::takeGroup() {
-    joints_ = mManualConstraints.size();
     auto group = mCollisionGroup;
     mCollisionGroup = mCollisionDetector->createCollisionGroupAsSharedPtr();
     return group;
+}
+
+void PairwiseSolver::setJoints(std::vector<dart::constraint::ConstraintBasePtr> joints) {
+    joints_ = joints.size();
+    mManualConstraints = std::move(joints);
 }
 
 std::vector<dart::constraint::ConstraintBasePtr>& PairwiseSolver::beginContacts() {

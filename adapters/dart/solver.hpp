@@ -20,6 +20,9 @@ class PairwiseSolver final : public dart::constraint::BoxedLcpConstraintSolver {
     /// The group of all shapes that can collide, which the solver itself no longer looks at.
     dart::collision::CollisionGroupPtr takeGroup();
 
+    /// Sets the constraints of joints, beside those that belong to the joints of trees.
+    void setJoints(std::vector<dart::constraint::ConstraintBasePtr> joints);
+
     /// Constraints of the coming step's contacts, beside those of joints.
     std::vector<dart::constraint::ConstraintBasePtr>& beginContacts();
 

@@ -67,9 +67,11 @@ DartWorld::DartWorld(const adapter::Scenario& scenario, double dt, const adapter
         prescribed_.push_back(
             {body.pose.position, body.pose.orientation, body.velocity, body.angularVelocity});
     for (const int body : model_.forest.order) placeBody(model_, scenario_, planar_, body, prescribed_);
+    for (const int joint : model_.forest.loops)
+        model_.loops.emplace_back(scenario_, joint, model_.forest, model_.bodies, planar_);
     // FCL's trees are built where the shapes stand when they are added.
     for (const auto& skeleton : model_.skeletons) world_->addSkeleton(skeleton);
-    for (const auto& loop : model_.loops) solver_->addConstraint(loop);
+    useJointsThatHold();
     group_ = solver_->takeGroup();
     option_.enableContact = true;
     option_.maxNumContacts = static_cast<std::size_t>(adapter::integerSetting(settings_, "max_contacts"));
@@ -190,6 +192,36 @@ void DartWorld::findContacts() {
     }
 }
 
+/// DART breaks no joint: after a step in which one has borne more than its strength its constraints are left out.
+void DartWorld::breakJoints() {
+    bool any = false;
+    for (LoopJoint& joint : model_.loops) {
+        if (!joint.holds() || !joint.isOverloaded(dt_)) continue;
+        joint.setHolds(false);
+        any = true;
+    }
+    if (any) useJointsThatHold();
+}
+
+/// Bodies that a joint kept from colliding collide once it has broken.
+void DartWorld::useJointsThatHold() {
+    std::vector<dart::constraint::ConstraintBasePtr> constraints;
+    for (const LoopJoint& joint : model_.loops)
+        if (joint.holds())
+            constraints.insert(constraints.end(), joint.constraints().begin(), joint.constraints().end());
+    solver_->setJoints(std::move(constraints));
+    adapter::Scenario left = scenario_;
+    left.joints.clear();
+    for (std::size_t j = 0; j < scenario_.joints.size(); ++j)
+        if (jointHolds(static_cast<int>(j))) left.joints.push_back(scenario_.joints[j]);
+    pairs_ = PairTable(left);
+}
+
+bool DartWorld::jointHolds(int joint) const {
+    return std::all_of(model_.loops.begin(), model_.loops.end(),
+                       [&](const LoopJoint& loop) { return loop.joint() != joint || loop.holds(); });
+}
+
 /// A few steps later such numbers are none, at which DART's assertions end the process.
 bool DartWorld::escaped() const {
     return std::any_of(model_.skeletons.begin(), model_.skeletons.end(), [](const auto& skeleton) {
@@ -209,6 +241,7 @@ void DartWorld::step() {
     drive();
     findContacts();
     world_->step();
+    breakJoints();
     moveKinematic();
     escaped_ = escaped();
 }
@@ -261,6 +294,7 @@ void DartWorld::save(std::vector<unsigned char>& bytes) const {
         putVector(wrench.force);
         putVector(wrench.torque);
     }
+    for (const LoopJoint& joint : model_.loops) numbers.push_back(joint.holds() ? 1.0 : 0.0);
     bytes.resize(numbers.size() * sizeof(double));
     std::memcpy(bytes.data(), numbers.data(), bytes.size());
 }
@@ -292,6 +326,8 @@ bool DartWorld::restore(const std::vector<unsigned char>& bytes) {
         wrench.force = takeVector();
         wrench.torque = takeVector();
     }
+    for (LoopJoint& joint : model_.loops) joint.setHolds(take() != 0.0);
+    useJointsThatHold();
     escaped_ = false;
     return true;
 }

@@ -29,6 +29,7 @@ class DartWorld final : public adapter::World, public adapter::Snapshots, public
     adapter::ReadBack readBack() const override;
     std::vector<adapter::LedgerEntry> ledger() const override;
     adapter::StepCounters counters() const override;
+    bool jointHolds(int joint) const override;
     adapter::Scheme scheme() const override { return adapter::Scheme::SymplecticEuler; }
     adapter::Snapshots* snapshots() override;
     void save(std::vector<unsigned char>& bytes) const override;
@@ -43,6 +44,8 @@ class DartWorld final : public adapter::World, public adapter::Snapshots, public
     void applyForces();
     void drive();
     void findContacts();
+    void breakJoints();
+    void useJointsThatHold();
     static bool isContact(const dart::collision::Contact& contact);
     bool movable(const dart::collision::Contact& contact) const;
     void setCoefficients(const dart::dynamics::ShapeFrame& one, const dart::dynamics::ShapeFrame& two) const;

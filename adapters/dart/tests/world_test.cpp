@@ -114,5 +114,101 @@ TEST(DartWorld, WhatClosesALoopIsAPointTwoPointsOrAWeld) {
     }
 }
 
+/// A joint with a strength is a constraint even where it closes no loop. The body hangs away from the origin, turned, by a
+/// point half a metre beside its centre of mass.
+TEST(DartWorld, AJointBreaksByForceAndByTorqueAboutItsAnchor) {
+    constexpr double kStep = 1.0 / 240.0;
+    for (const JointType type : {JointType::Fixed, JointType::Hinge})
+        for (const bool torque : {false, true}) {
+            SCOPED_TRACE(std::string(scenario::jointName(type)) + (torque ? ", torque" : ", force"));
+            Scenario s = scene();
+            s.gravity = {0, -9.81, 0};
+            const Quat turned = scenario::fromAxisAngle({0, 1, 0}, 0.7);
+            const int b = addBody(s, Sphere{0.1}, {3, 2, -1}, 4.0, {0.2, 0.3, 0.4});
+            s.bodies[b].pose.orientation = turned;
+            Joint joint;
+            joint.name = "hold";
+            joint.type = type;
+            joint.bodyB = b;
+            joint.anchorB = {-0.5, 0, 0};
+            joint.anchorA = s.bodies[b].pose * joint.anchorB;
+            joint.axisB = {1, 0, 0};
+            joint.axisA = rotate(turned, joint.axisB);
+            (torque ? joint.breakTorque : joint.breakForce) =
+                torque ? 0.5 * 4.0 * 9.81 + 1.0 : 4.0 * 9.81 + 2.0;
+            s.joints.push_back(joint);
+            Simulation simulation(s, kStep, "preset=matched");
+            std::vector<unsigned char> whole;
+            for (int i = 0; i < 240; ++i) {
+                if (i == 100) simulation.world->snapshots()->save(whole);
+                // 1.9 N more hold either, 2.1 N more at the body (1.05 N m about the anchor) neither.
+                simulation.world->applyForce(b, {0, i < 120 ? -1.9 : -2.1, 0}, {});
+                simulation.steps(1);
+                ASSERT_EQ(simulation.world->jointHolds(0), i < 120) << i;
+            }
+            // It falls from the step after the one that broke it.
+            const double t = 119 * kStep;
+            EXPECT_NEAR(simulation.state(b).position.y, 2.0 - 0.5 * (9.81 + 2.1 / 4.0) * t * t, 3e-2);
+            ASSERT_TRUE(simulation.world->snapshots()->restore(whole));
+            EXPECT_TRUE(simulation.world->jointHolds(0));
+            simulation.steps(20);
+            EXPECT_NEAR(simulation.state(b).position.y, 2.0, 1e-4);
+        }
+}
+
+/// The anchor of a constraint is where the bodies stand, not where DART creates them.
+TEST(DartWorld, TwoFreeBodiesTurnAboutTheAnchorOfAJointWithAStrength) {
+    Scenario s = scene();
+    s.gravity = {};
+    const int a = addBody(s, Sphere{0.1}, {3, 2, -1}, 1.0, even(0.01));
+    const int b = addBody(s, Sphere{0.1}, {4, 2, -1}, 1.0, even(0.01));
+    Joint joint;
+    joint.name = "pin";
+    joint.type = JointType::Ball;
+    joint.bodyA = a;
+    joint.bodyB = b;
+    joint.anchorA = {0.5, 0, 0};
+    joint.anchorB = {-0.5, 0, 0};
+    joint.breakForce = 1e6;
+    s.joints.push_back(joint);
+    s.bodies[a].angularVelocity = {0, 2, 0};
+    s.bodies[a].velocity = {0, 0, 1};
+    s.bodies[b].angularVelocity = {0, -2, 0};
+    s.bodies[b].velocity = {0, 0, 1};
+    Simulation simulation(s, 1.0 / 960.0, "preset=matched");
+    for (int i = 0; i < 20; ++i) {
+        simulation.steps(24);
+        const BodyState A = simulation.state(a), B = simulation.state(b);
+        EXPECT_LE(norm(A.position + rotate(A.orientation, joint.anchorA) - B.position -
+                       rotate(B.orientation, joint.anchorB)),
+                  1e-3);
+    }
+    EXPECT_GT(norm(simulation.state(a).angularVelocity), 0.1);
+}
+
+TEST(DartWorld, ShapesOfSingleNarrowPhasesAreRefusedByTheOthers) {
+    for (const std::string phase : {"fcl_mesh", "fcl_primitive", "ode"})
+        for (const bool field : {false, true}) {
+            SCOPED_TRACE(phase + (field ? ", height field" : ", ellipsoid"));
+            Scenario s = scene(0.5);
+            s.gravity = {0, -9.81, 0};
+            const double ground = field ? 0.3 : 0.5;
+            if (field)
+                addStatic(s, scenario::HeightField{4, 3, 0.5, 0.5, std::vector<double>(12, 0.3), 1.0});
+            else
+                addStatic(s, scenario::Ellipsoid{{2.0, 0.5, 1.5}});
+            const int ball = addBody(s, Sphere{0.2}, {0, ground + 0.21, 0}, 1.0, even(0.016));
+            const std::string spec = "preset=matched,narrow_phase=" + phase;
+            if (field != (phase == "ode")) {
+                EXPECT_THROW(Simulation(s, 1.0 / 240.0, spec), adapter::Unsupported);
+                continue;
+            }
+            Simulation simulation(s, 1.0 / 240.0, spec);
+            simulation.steps(120);
+            // Meshes have facets.
+            EXPECT_NEAR(simulation.state(ball).position.y, ground + 0.2, phase == "fcl_mesh" ? 2e-2 : 1e-3);
+        }
+}
+
 }  // namespace
 }  // namespace rigor::test

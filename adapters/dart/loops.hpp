@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Joints beside the trees: those that close loops, and those that can break.
+#pragma once
+
+#include <dart/constraint/ConstraintBase.hpp>
+#include <dart/dynamics/BodyNode.hpp>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "adapters/dart/convert.hpp"
+#include "adapters/interface/joint_trees.hpp"
+
+namespace rigor::dart_adapter {
+
+/// Force, and torque about the anchor, of a joint in the last step.
+struct Reaction {
+    double force = 0.0;   ///< [N]
+    double torque = 0.0;  ///< [N m]
+};
+
+/// A joint as constraints of DART: a ball is a point, a fixed joint a weld, a hinge two points on its axis.
+class LoopJoint {
+  public:
+    /// `bodies` are the nodes by scenario body, which stand at their initial poses. Throws Unsupported for other joints.
+    LoopJoint(const adapter::Scenario& scenario, int joint, const adapter::Forest& forest,
+              std::span<dart::dynamics::BodyNode* const> bodies, bool planar);
+
+    int joint() const { return joint_; }
+    bool holds() const { return holds_; }
+    void setHolds(bool holds) { holds_ = holds; }
+    const std::vector<dart::constraint::ConstraintBasePtr>& constraints() const { return constraints_; }
+
+    Reaction reaction(double dt) const;
+    /// True where the joint bore more in the last step than its strength.
+    bool isOverloaded(double dt) const;
+
+  private:
+    /// One constraint with its impulse of the last step.
+    struct Part {
+        std::function<Eigen::VectorXd()> impulse;
+        Eigen::Vector3d arm;  ///< way from the anchor to where the impulse acts, axes of the body [m]
+    };
+    template <class Constraint, class... Arguments>
+    void add(const Eigen::Vector3d& arm, Arguments&&... arguments);
+
+    int joint_ = 0;
+    double breakForce_, breakTorque_;
+    bool holds_ = true;
+    std::vector<dart::constraint::ConstraintBasePtr> constraints_;
+    std::vector<Part> parts_;
+};
+
+}  // namespace rigor::dart_adapter
