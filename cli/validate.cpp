@@ -6,6 +6,7 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <thread>
 
@@ -172,18 +173,33 @@ nlohmann::ordered_json caseJson(const results::CaseRow& c) {
             {"metrics", metrics}};
 }
 
-void printResult(const results::Run& run, const fs::path& directory, bool json) {
-    if (json) {
-        nlohmann::ordered_json out{{"run", directory.string()},
-                                   {"green", validation::runIsGreen(run)},
-                                   {"cases", nlohmann::json::array()}};
-        for (const auto& c : run.cases) out["cases"].push_back(caseJson(c));
-        std::printf("%s\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-        return;
-    }
-    std::printf(
-        "%s\n",
-        report::terminalSummary(run, 40, terminalColumns(STDOUT_FILENO), wantsColour(STDOUT_FILENO)).c_str());
+std::string resultText(const results::Run& run, const fs::path& directory, bool json) {
+    if (!json)
+        return report::terminalSummary(run, 40, terminalColumns(STDOUT_FILENO), wantsColour(STDOUT_FILENO));
+    nlohmann::ordered_json out{{"run", directory.string()},
+                               {"green", validation::runIsGreen(run)},
+                               {"cases", nlohmann::json::array()}};
+    for (const auto& c : run.cases) out["cases"].push_back(caseJson(c));
+    return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// What is left of a run once it is stored. The report reads it again, and two of a large one would be in memory.
+struct Ending {
+    std::string text;
+    bool green = false, lacksReferencesAlone = false, hasMiss = false;
+};
+
+Ending endingOf(const results::Run& run, const ValidateArguments& arguments, const fs::path& directory) {
+    Ending ending;
+    ending.text = !arguments.shard.empty() && !arguments.json
+                      ? "Shard " + arguments.shard + ": " + std::to_string(run.cases.size()) +
+                            " cases are stored in " + directory.string()
+                      : resultText(run, directory, arguments.json);
+    ending.green = validation::runIsGreen(run);
+    ending.lacksReferencesAlone = validation::lacksReferencesAlone(run);
+    ending.hasMiss = std::any_of(run.cases.begin(), run.cases.end(),
+                                 [](const auto& c) { return c.verdict == results::Verdict::Fail; });
+    return ending;
 }
 
 /// Positional arguments of the run that is resumed.
@@ -232,7 +248,7 @@ int validate(const ValidateArguments& given) {
     const auto again = [&] {
         return commandToGoOn(options.command, options.directory, options.resume, !arguments.out.empty());
     };
-    const auto run = orStopped(line, again, [&] {
+    std::optional<results::Run> run = orStopped(line, again, [&] {
         return validation::runCases(
             plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
     });
@@ -242,19 +258,15 @@ int validate(const ValidateArguments& given) {
         return kInterrupted;
     }
     releaseInterrupts();
+    const Ending ending = endingOf(*run, arguments, options.directory);
+    run.reset();
     if (!options.shard) report::writeReports(options.directory);  // `rigor merge` writes one for all shards
-    if (options.shard && !arguments.json)
-        std::printf("Shard %s: %zu cases are stored in %s\n", arguments.shard.c_str(), run.cases.size(),
-                    options.directory.c_str());
-    else
-        printResult(run, options.directory, arguments.json);
-    const bool green = validation::runIsGreen(run);
-    const bool misses = std::any_of(run.cases.begin(), run.cases.end(),
-                                    [](const auto& c) { return c.verdict == results::Verdict::Fail; });
-    if (misses && setsMoreThanBounds(arguments.overrides)) std::fprintf(stderr, "note: %s\n", kBoundsNote);
+    std::printf("%s\n", ending.text.c_str());
+    if (ending.hasMiss && setsMoreThanBounds(arguments.overrides))
+        std::fprintf(stderr, "note: %s\n", kBoundsNote);
     const bool worse = !arguments.baseline.empty() && becameWorseThan(arguments.baseline, options.directory);
-    if (!worse && validation::lacksReferencesAlone(run)) return kNoReference;
-    return green && !worse ? kOk : kRed;
+    if (!worse && ending.lacksReferencesAlone) return kNoReference;
+    return ending.green && !worse ? kOk : kRed;
 }
 
 }  // namespace
