@@ -92,3 +92,12 @@ export function median(values: number[]): number {
 
 /** "1 case", "2 cases"; for things whose plural has an s alone. */
 export const counted = (n: number, thing: string): string => `${n} ${thing}${n === 1 ? '' : 's'}`;
+
+/** The first words of a long command, up to 160 characters, and how many follow. */
+export function shortCommand(text: string): string {
+  const words = text.split(' ');
+  let shown = words[0] ?? '';
+  let count = 1;
+  for (; count < words.length && shown.length + (words[count] ?? '').length < 160; ++count) shown += ` ${words[count]}`;
+  return count < words.length ? `${shown} … ${words.length - count} more` : shown;
+}

@@ -3,7 +3,7 @@
 //
 // Elements of the sections: panels, chips, number cells, heads of tables with a column per engine.
 import { type Attributes, type Child, el } from '../common/elements.ts';
-import { duration, format, full, inShownUnit, type Maybe, timeStep } from '../common/format.ts';
+import { duration, format, full, inShownUnit, type Maybe, shortCommand, timeStep } from '../common/format.ts';
 import type { Column, Regression, Shown } from './data.ts';
 import { meaningOf } from './glossary_terms.ts';
 import { dimensionNote, engineLink, subtitleOf, verdictText } from './run.ts';
@@ -138,6 +138,12 @@ export function folded(summary: Child, make: () => Child): HTMLElement {
   const node = el('details', null, el('summary', null, summary));
   node.addEventListener('toggle', () => node.append(el('div', null, make())), { once: true });
   return node;
+}
+
+/** A command at the end of a line of text; a long one, of hundreds of files, is unfolded by a click. */
+export function commandInText(text: string): Child {
+  const short = shortCommand(text);
+  return short === text ? [' · ', el('code', null, text)] : folded(el('code', null, short), () => command(text));
 }
 
 /** A command that can be copied. */

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { newCursor } from '../../src/common/cursor.ts';
-import { angle, duration, format, median, ratio, timeStep, toNumber } from '../../src/common/format.ts';
+import { angle, duration, format, median, ratio, shortCommand, timeStep, toNumber } from '../../src/common/format.ts';
 import { fileOf, placeCases } from '../../src/report/case_files.ts';
 import { cellOf, errorOf, gradeOf, logPlace, relativeOf, severity } from '../../src/report/cells.ts';
 import { barScale } from '../../src/report/charts/bars.ts';
@@ -26,6 +26,16 @@ test('numbers are read and written', () => {
     ['×1', '×2.4', '×130', '×2e4', ''],
   );
   assert.deepEqual([median([3, 1, 2]), median([4, 1, 2, 3])], [2, 2.5]);
+});
+
+test('a long command is shown by its first words', () => {
+  assert.equal(shortCommand('./rigor validate standard'), './rigor validate standard');
+  const files = Array.from({ length: 300 }, (_, i) => `scene_${String(i).padStart(5, '0')}.json`);
+  const short = shortCommand(`./rigor validate ${files.join(' ')}`);
+  assert.ok(short.startsWith('./rigor validate scene_00000.json ') && short.length < 180, short);
+  const left = Number(/ … (\d+) more$/.exec(short)?.[1]);
+  assert.equal(short.split(' ').filter((w) => w.endsWith('.json')).length + left, 300);
+  assert.equal(shortCommand('x'.repeat(500)), 'x'.repeat(500));
 });
 
 test('the cases of a large run come to their scenarios', () => {

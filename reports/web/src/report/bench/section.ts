@@ -6,7 +6,7 @@ import { type Child, el } from '../../common/elements.ts';
 import { duration, format } from '../../common/format.ts';
 import type { Bench, BenchChange } from '../data.ts';
 import { run } from '../run.ts';
-import { facts, folded, headRow, panel, scroll } from '../widgets.ts';
+import { commandInText, facts, folded, headRow, panel, scroll } from '../widgets.ts';
 import { labelOf, specKey } from './groups.ts';
 import { subjectsNode } from './subject.ts';
 
@@ -105,7 +105,7 @@ export function benchSection(): HTMLElement | null {
     'bench',
     null,
     el('h1', null, 'Rigor bench'),
-    run.command ? el('p', { class: 'muted' }, run.started, ' · ', el('code', null, run.command)) : null,
+    run.command ? el('div', { class: 'muted said' }, run.started, commandInText(run.command)) : null,
     meaning(bench),
     el('h2', null, 'Times and work'),
     specs(bench),

@@ -3,7 +3,7 @@
 import { type Child, el } from '../../common/elements.ts';
 import { counted } from '../../common/format.ts';
 import { labelOf, run, scenarioLink } from '../run.ts';
-import { panel } from '../widgets.ts';
+import { commandInText, panel } from '../widgets.ts';
 
 /** Links to the first red cases. */
 function redCases(): Child {
@@ -28,11 +28,11 @@ export function headline(): HTMLElement {
     null,
     el('h1', null, 'Rigor report', run.title ? `: ${run.title}` : ''),
     el(
-      'p',
-      { class: 'muted' },
+      'div',
+      { class: 'muted said' },
       run.started,
       run.finished ? ` – ${run.finished}` : '',
-      run.command ? [' · ', el('code', null, run.command)] : '',
+      run.command ? commandInText(run.command) : '',
     ),
     unfinished
       ? el('p', { class: 'notice' }, `This run is unfinished: ${run.total} of ${run.planned} cases are stored.`)
