@@ -183,7 +183,8 @@ std::string resultText(const results::Run& run, const fs::path& directory, bool 
     return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// What is left of a run once it is stored. The report reads it again, and two of a large one would be in memory.
+/// Text and verdicts of a run, which are left of it at its end. The report reads the run again, and two of a large one
+/// would be in memory.
 struct Ending {
     std::string text;
     bool green = false, lacksReferencesAlone = false, hasMiss = false;
