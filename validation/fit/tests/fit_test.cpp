@@ -232,7 +232,10 @@ TEST(Fit, ACrashOfAnEngineCostsItsCaseAlone) {
         const auto& test = scoreOf(outcome.result.engines[0].scores, "test", "fitted", "measured_loss").score;
         EXPECT_EQ(test.broken, test.runs) << engine;
         EXPECT_TRUE(std::isinf(test.mean));
-        EXPECT_THAT(readTextFile(folder / "evaluations.jsonl"), HasSubstr(says)) << engine;
+        // A sanitizer ends the process itself, and its last line is the reason.
+        EXPECT_THAT(readTextFile(folder / "evaluations.jsonl"),
+                    AnyOf(HasSubstr(says), HasSubstr("runtime error: store to null pointer")))
+            << engine;
         EXPECT_THAT(fitCsv(outcome.result), HasSubstr(",mean is infinite;"));
     }
 }
