@@ -21,19 +21,19 @@ namespace {
 constexpr double kHingeArm = 0.1;
 
 /// A constraint that remembers the impulse that DART's solver gives it: of a point a force, of a weld a torque and a force
-/// at the body's centre of mass, in the axes of its first body.
+/// at the body's centre of mass.
 template <class Base, int kRows>
 class Recorded final : public Base {
   public:
     using Base::Base;
-    Eigen::VectorXd impulse() const { return impulse_; }
+    const Eigen::Matrix<double, 6, 1>& impulse() const { return impulse_; }
 
   private:
     void applyImpulse(double* lambda) override {
-        impulse_ = Eigen::Map<const Eigen::Matrix<double, kRows, 1>>(lambda);
+        impulse_.template tail<kRows>() = Eigen::Map<const Eigen::Matrix<double, kRows, 1>>(lambda);
         Base::applyImpulse(lambda);
     }
-    Eigen::Matrix<double, kRows, 1> impulse_ = Eigen::Matrix<double, kRows, 1>::Zero();
+    Eigen::Matrix<double, 6, 1> impulse_ = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
 using Point = Recorded<BallJointConstraint, 3>;
@@ -45,21 +45,21 @@ template <class Constraint, class... Arguments>
 void LoopJoint::add(const Eigen::Vector3d& arm, Arguments&&... arguments) {
     const auto made = std::make_shared<Constraint>(std::forward<Arguments>(arguments)...);
     constraints_.push_back(made);
-    parts_.push_back({[held = made.get()] { return held->impulse(); }, arm});
+    parts_.push_back({&made->impulse(), arm});
 }
 
 LoopJoint::LoopJoint(const adapter::Scenario& scenario, int index, const adapter::Forest& forest,
                      std::span<dart::dynamics::BodyNode* const> bodies, bool planar)
     : joint_(index),
+      canBreak_(adapter::canBreak(scenario.joints[index])),
       breakForce_(scenario.joints[index].breakForce),
       breakTorque_(scenario.joints[index].breakTorque) {
     const Joint& joint = scenario.joints[index];
     if (!adapter::canCloseLoop(joint))
-        throw adapter::notInLibrary("dart",
-                                    std::string("a ") + jointName(joint.type) +
-                                        (adapter::canBreak(joint) ? " that breaks" : " that closes a loop"),
-                                    "dart/constraint: BallJointConstraint and WeldJointConstraint",
-                                    "joint '" + joint.name + "'");
+        throw adapter::notInLibrary(
+            "dart",
+            std::string("a ") + jointName(joint.type) + (canBreak_ ? " that breaks" : " that closes a loop"),
+            "dart/constraint: BallJointConstraint and WeldJointConstraint", "joint '" + joint.name + "'");
     const auto isMovable = [&](int body) { return body != adapter::kNone && !forest.links[body].fixed; };
     const bool isB = isMovable(joint.bodyB);
     const int body = isB ? joint.bodyB : joint.bodyA, other = isB ? joint.bodyA : joint.bodyB;
@@ -90,21 +90,15 @@ LoopJoint::LoopJoint(const adapter::Scenario& scenario, int index, const adapter
     if (joint.type == JointType::Hinge && !planar) hold(kHingeArm);
 }
 
-Reaction LoopJoint::reaction(double dt) const {
+bool LoopJoint::isOverloaded(double dt) const {
+    if (!canBreak_) return false;
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
     for (const Part& part : parts_) {
-        const Eigen::VectorXd impulse = part.impulse();
-        const Eigen::Vector3d linear = impulse.tail<3>();
+        const Eigen::Vector3d linear = part.impulse->tail<3>();
         force += linear;
-        torque += part.arm.cross(linear);
-        if (impulse.size() == 6) torque += impulse.head<3>();
+        torque += part.impulse->head<3>() + part.arm.cross(linear);
     }
-    return {force.norm() / dt, torque.norm() / dt};
-}
-
-bool LoopJoint::isOverloaded(double dt) const {
-    const Reaction now = reaction(dt);
-    return now.force > breakForce_ || now.torque > breakTorque_;
+    return force.norm() / dt > breakForce_ || torque.norm() / dt > breakTorque_;
 }
 
 }  // namespace rigor::dart_adapter

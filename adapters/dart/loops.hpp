@@ -6,7 +6,6 @@
 
 #include <dart/constraint/ConstraintBase.hpp>
 #include <dart/dynamics/BodyNode.hpp>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,12 +13,6 @@
 #include "adapters/interface/joint_trees.hpp"
 
 namespace rigor::dart_adapter {
-
-/// Force, and torque about the anchor, of a joint in the last step.
-struct Reaction {
-    double force = 0.0;   ///< [N]
-    double torque = 0.0;  ///< [N m]
-};
 
 /// A joint as constraints of DART: a ball is a point, a fixed joint a weld, a hinge two points on its axis.
 class LoopJoint {
@@ -33,20 +26,21 @@ class LoopJoint {
     void setHolds(bool holds) { holds_ = holds; }
     const std::vector<dart::constraint::ConstraintBasePtr>& constraints() const { return constraints_; }
 
-    Reaction reaction(double dt) const;
     /// True where the joint bore more in the last step than its strength.
     bool isOverloaded(double dt) const;
 
   private:
     /// One constraint with its impulse of the last step.
     struct Part {
-        std::function<Eigen::VectorXd()> impulse;
+        /// Torque, and force at a point, in the axes of the first body; the constraint holds it.
+        const Eigen::Matrix<double, 6, 1>* impulse;
         Eigen::Vector3d arm;  ///< way from the anchor to where the impulse acts, axes of the body [m]
     };
     template <class Constraint, class... Arguments>
     void add(const Eigen::Vector3d& arm, Arguments&&... arguments);
 
     int joint_ = 0;
+    bool canBreak_;
     double breakForce_, breakTorque_;
     bool holds_ = true;
     std::vector<dart::constraint::ConstraintBasePtr> constraints_;
