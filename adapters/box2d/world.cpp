@@ -171,11 +171,7 @@ void Box2dWorld::breakJoints() {
 /// Lets bodies that a joint kept from colliding collide once it has broken. Box2D finds new pairs only of
 /// fixtures that have moved or are marked to be filtered again.
 void Box2dWorld::collidePairsOfBrokenJoints() {
-    adapter::Scenario left = scenario_;
-    left.joints.clear();
-    for (std::size_t i = 0; i < joints_.size(); ++i)
-        if (!joints_[i].empty()) left.joints.push_back(scenario_.joints[i]);
-    pairs_ = adapter::PairTable(left);
+    pairs_.keepApart(scenario_, [&](std::size_t joint) { return !joints_[joint].empty(); });
     for (auto& record : records_)
         for (b2Fixture* f = record->body->GetFixtureList(); f != nullptr; f = f->GetNext()) f->Refilter();
 }

@@ -121,11 +121,7 @@ void ChipmunkWorld::breakJoints() {
     }
     if (!any) return;
     // Bodies that a joint kept from colliding collide once it has broken.
-    adapter::Scenario left = scenario_;
-    left.joints.clear();
-    for (std::size_t i = 0; i < joints_.size(); ++i)
-        if (!joints_[i].empty()) left.joints.push_back(scenario_.joints[i]);
-    pairs_ = adapter::PairTable(left);
+    pairs_.keepApart(scenario_, [&](std::size_t joint) { return !joints_[joint].empty(); });
 }
 
 /// Called when two shapes overlap, before their contacts are solved. Chipmunk would multiply the coefficients of the

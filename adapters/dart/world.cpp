@@ -210,11 +210,7 @@ void DartWorld::useJointsThatHold() {
         if (joint.holds())
             constraints.insert(constraints.end(), joint.constraints().begin(), joint.constraints().end());
     solver_->setJoints(std::move(constraints));
-    adapter::Scenario left = scenario_;
-    left.joints.clear();
-    for (std::size_t j = 0; j < scenario_.joints.size(); ++j)
-        if (jointHolds(static_cast<int>(j))) left.joints.push_back(scenario_.joints[j]);
-    pairs_ = PairTable(left);
+    pairs_.keepApart(scenario_, [&](std::size_t joint) { return jointHolds(static_cast<int>(joint)); });
 }
 
 bool DartWorld::jointHolds(int joint) const {

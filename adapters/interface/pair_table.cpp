@@ -22,9 +22,16 @@ PairTable::PairTable(const Scenario& scenario) : materials_(scenario.materials.s
             filtersByBody_ = filtersByBody_ && shape.filter == filtersOf_.back().front();
         }
     }
-    for (const auto& joint : scenario.joints)
-        if (!joint.collideConnected && joint.bodyA != scenario::kNone)
+    keepApart(scenario, [](std::size_t) { return true; });
+}
+
+void PairTable::keepApart(const Scenario& scenario, const std::function<bool(std::size_t joint)>& holds) {
+    connected_.clear();
+    for (std::size_t j = 0; j < scenario.joints.size(); ++j) {
+        const auto& joint = scenario.joints[j];
+        if (!joint.collideConnected && joint.bodyA != scenario::kNone && holds(j))
             connected_.emplace_back(std::minmax(joint.bodyA, joint.bodyB));
+    }
     std::sort(connected_.begin(), connected_.end());
 }
 

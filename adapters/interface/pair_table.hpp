@@ -5,6 +5,8 @@
 // callbacks.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,10 @@ namespace rigor::adapter {
 class PairTable {
   public:
     explicit PairTable(const Scenario& scenario);
+
+    /// Lets the joints for which `holds` is true keep their bodies from colliding, and no others: bodies that a joint
+    /// kept apart collide once it has broken. `scenario` is that of the table.
+    void keepApart(const Scenario& scenario, const std::function<bool(std::size_t joint)>& holds);
 
     const scenario::PairCoefficients& coefficients(int materialA, int materialB) const {
         return table_[materialA * materials_ + materialB];

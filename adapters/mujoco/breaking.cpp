@@ -58,11 +58,7 @@ bool MujocoWorld::jointHolds(int joint) const {
 
 /// Bodies that a joint kept from colliding collide once it has broken.
 void MujocoWorld::updatePairs() {
-    adapter::Scenario left = scenario_;
-    left.joints.clear();
-    for (std::size_t j = 0; j < scenario_.joints.size(); ++j)
-        if (jointHolds(static_cast<int>(j))) left.joints.push_back(scenario_.joints[j]);
-    pairs_ = adapter::PairTable(left);
+    pairs_.keepApart(scenario_, [&](std::size_t joint) { return jointHolds(static_cast<int>(joint)); });
 }
 
 }  // namespace rigor::mujoco

@@ -86,11 +86,7 @@ void OdeWorld::breakJoints() {
 
 /// Lets bodies that a joint kept from colliding collide once it has broken.
 void OdeWorld::collidePairsOfBrokenJoints() {
-    Scenario left = scenario_;
-    left.joints.clear();
-    for (std::size_t i = 0; i < joints_.size(); ++i)
-        if (joints_[i]->holds()) left.joints.push_back(scenario_.joints[i]);
-    pairs_ = adapter::PairTable(left);
+    pairs_.keepApart(scenario_, [&](std::size_t joint) { return joints_[joint]->holds(); });
 }
 
 void OdeWorld::nearPair(void* self, dGeomID a, dGeomID b) {
