@@ -11,7 +11,7 @@
 // -K^-1 (w) as a block, bounded rows are clamped; rolling and torsional friction has the disc that its contact's
 // r_n bounds [AcaryBourrier2021].
 //
-// One iteration is a symmetric sweep (forwards, backwards) of all blocks, a fixed-point map g(r). Plain
+// One iteration is a symmetric sweep (backwards, forwards) of all blocks, a fixed-point map g(r). Plain
 // iteration converges linearly and slowly for stacks; it is accelerated by Anderson's method of depth
 // kDepth [WalkerNi2011]: the next iterate is the combination of the last g that minimises the combined g(r) -
 // r (in the norm of energy), projected into the cones and bounds, and kept only if its natural map is not
@@ -77,7 +77,8 @@ class Nsgs final : public Solver<S> {
         for (int k = 0; k < input.iterations; ++k) {
             input.monitor.before(input.velocities);
             readImpulses(input.constraints, start_);
-            const Real change = std::max(sweep(input, false), sweep(input, true));
+            const Real backwards = sweep(input, true);
+            const Real change = std::max(backwards, sweep(input, false));
             Real residual = renewedResidual(input);
             if (residual > input.residualTolerance) residual = accelerate(input, residual);
             if (k % kFinishEvery == kFinishEvery - 1 && residual > goal(input))
