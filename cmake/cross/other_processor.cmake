@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The Rigor authors
+#
+# Included by compare_hashes.cmake, for the processor TARGET: sets `kind` to the arguments of CMake that build for it, and
+# `run` to what its programs are started by here. Where something is missing it says so, and leaves `kind` empty.
+set(kind)
+if("${TARGET}" STREQUAL "i386")
+    set(tools i686-linux-gnu)
+    set(triplet i386-linux-gnu)
+    set(emulators qemu-i386-static qemu-i386)
+elseif("${TARGET}" STREQUAL "arm64")
+    set(tools aarch64-linux-gnu)
+    set(triplet aarch64-linux-gnu)
+    set(emulators qemu-aarch64-static qemu-aarch64)
+elseif("${TARGET}" STREQUAL "armhf")
+    set(tools arm-linux-gnueabihf)
+    set(triplet arm-linux-gnueabihf)
+    set(emulators qemu-arm-static qemu-arm)
+else()
+    message(FATAL_ERROR "TARGET is '${TARGET}': it must be clang, i386, arm64 or armhf")
+endif()
+
+find_program(compiler ${tools}-g++)
+if(NOT compiler)
+    message("SKIPPED: no ${tools}-g++ (Debian: g++-${tools})")
+    return()
+endif()
+set(root $ENV{RIGOR_CROSS_ROOT})
+if(root)
+    set(libraries ${root}/${TARGET}/usr/lib/${triplet})
+else()
+    set(libraries /usr/lib/${triplet})
+endif()
+if(NOT EXISTS ${libraries}/cmake/TBB OR NOT EXISTS ${libraries}/cmake/hwy)
+    message("SKIPPED: no oneTBB and Highway of ${TARGET} in ${libraries}. `cmake/cross/get_libraries.sh DIR ${TARGET}` unpacks "
+            "them; then set RIGOR_CROSS_ROOT=DIR")
+    return()
+endif()
+
+file(WRITE ${BUILD}/word.cpp "int main() {}\n")
+execute_process(COMMAND ${compiler} ${BUILD}/word.cpp -o ${BUILD}/word COMMAND_ERROR_IS_FATAL ANY)
+find_program(emulator ${emulators})
+set(run ${emulator} -L /usr/${tools})
+if("${TARGET}" STREQUAL "i386")
+    # Most x86-64 systems run these programs as they are.
+    execute_process(COMMAND ${BUILD}/word RESULT_VARIABLE native)
+    if(native EQUAL 0)
+        set(run)
+    endif()
+endif()
+if(run AND NOT emulator)
+    message("SKIPPED: neither of ${emulators} (Debian: qemu-user-static)")
+    return()
+endif()
+set(kind -DCMAKE_TOOLCHAIN_FILE=${CMAKE_CURRENT_LIST_DIR}/toolchain.cmake -DRIGOR_CROSS=${TARGET} -DRIGOR_CROSS_ROOT=${root}
+         -DCMAKE_BUILD_TYPE=Release)
