@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace rigor::siconos {
 namespace {
@@ -43,8 +44,12 @@ constexpr Method kMethods[] = {
     {"lemke", SICONOS_FRICTION_2D_LEMKE, 0},
 };
 
+/// solver_options_delete frees what the options point to, and leaves the structure itself to its owner.
 struct OptionsDeleter {
-    void operator()(SolverOptions* options) const { solver_options_delete(options); }
+    void operator()(SolverOptions* options) const {
+        solver_options_delete(options);
+        std::free(options);
+    }
 };
 
 class SiconosSolve final : public adapter::ContactSolve {
