@@ -107,6 +107,9 @@ function(rigor_test name)
     if(NOT ARG_TIMEOUT)
         set(ARG_TIMEOUT 120)
     endif()
+    if(RIGOR_SANITIZE)  # sanitizers make tests 3 to 10 times slower
+        math(EXPR ARG_TIMEOUT "4 * ${ARG_TIMEOUT}")
+    endif()
     # Two builds on one machine may run the same test at once: each has temporary files of its own.
     set(temporary ${PROJECT_BINARY_DIR}/tests/tmp/${name})
     file(MAKE_DIRECTORY ${temporary})
