@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -27,6 +29,24 @@ struct SweepArguments {
 
     std::string command() const { return isStudy ? "study" : "validate"; }
 };
+
+/// The share of the cores that GNU parallel may fill with shards, each of which uses as many cores as it has jobs.
+std::string parallelShards(const SweepArguments& a) {
+    int jobs = 1;
+    for (std::size_t i = 0; i < a.plan.size(); ++i) {
+        const std::string& word = a.plan[i];
+        const bool isLast = i + 1 == a.plan.size();
+        std::string number;
+        if (word == "-j" || word == "--jobs")
+            number = isLast ? "" : a.plan[i + 1];
+        else if (word.starts_with("--jobs="))
+            number = word.substr(7);
+        else if (word.starts_with("-j"))
+            number = word.substr(2);
+        std::from_chars(number.data(), number.data() + number.size(), jobs);
+    }
+    return std::to_string(100 / std::clamp(jobs, 1, 100)) + "%";
+}
 
 /// Directives of Slurm; for the shell they are comments.
 std::string directives(const SweepArguments& a, const fs::path& out, const std::string& kind) {
@@ -156,8 +176,8 @@ int sweep(const SweepArguments& a) {
         std::printf("job=$(%s)\n%s$job %s\n", array.c_str(), dependent.c_str(),
                     shellWord(merge.string()).c_str());
     } else {
-        std::printf("seq %d | parallel -j 4 sh %s {}\nsh %s\n", a.shards, shellWord(shard.string()).c_str(),
-                    shellWord(merge.string()).c_str());
+        std::printf("seq %d | parallel -j %s sh %s {}\nsh %s\n", a.shards, parallelShards(a).c_str(),
+                    shellWord(shard.string()).c_str(), shellWord(merge.string()).c_str());
     }
     return kOk;
 }

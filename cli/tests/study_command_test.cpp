@@ -120,6 +120,17 @@ TEST(StudyCommand, ASweepGivesTheTablesOfTheWholeStudy) {
     EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
+/// A shard with two jobs takes two cores.
+TEST(StudyCommand, ParallelShardsTakeAllCoresTogether) {
+    for (const auto& [jobs, share] :
+         {std::pair{"", "100%"}, {" -j 2", "50%"}, {" -j4", "25%"}, {" --jobs=8", "12%"}}) {
+        const auto folder = fs::path(testing::TempDir()) / "study-shares";
+        fs::remove_all(folder);
+        const auto sweep = rigor("sweep --shards 8 --out " + folder.string() + " smoke" + jobs);
+        EXPECT_NE(sweep.out.find(std::string("parallel -j ") + share + " "), std::string::npos) << sweep.out;
+    }
+}
+
 TEST(StudyCommand, BadInputIsSaid) {
     const auto symptom = rigor("study " + writeStudy("2000").string());
     EXPECT_EQ(symptom.code, 2);

@@ -124,7 +124,7 @@ function engineOptions(options: Json[], columns: readonly string[]): string {
     const values = o.values ? o.values.join(', ') : o.range ? `${o.range[0]} … ${o.range[1]}` : '';
     return `<tr data-entry><td><code>${escaped(String(o.key))}</code></td><td>${escaped(String(o.default ?? ''))}</td><td>${escaped(String(o.matched ?? ''))}</td><td>${escaped(String(o.help ?? ''))}<br><span class="muted">${escaped(values)}</span></td></tr>`;
   });
-  return `<div class="table" tabindex="0"><table><thead><tr>${columns.map((c) => `<th>${c}</th>`).join('')}</tr></thead><tbody>${rows.join('')}</tbody></table></div>`;
+  return `<div class="table settings" tabindex="0"><table><thead><tr>${columns.map((c) => `<th>${c}</th>`).join('')}</tr></thead><tbody>${rows.join('')}</tbody></table></div>`;
 }
 
 function specs(program: string, language: Language): GeneratedPage {

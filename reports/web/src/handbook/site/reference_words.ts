@@ -83,7 +83,7 @@ export const referenceWords: Record<Language, ReferenceWords> = {
     report:
       'The reference report of this version</a>: every scenario of the suite <code>standard</code> on every installed engine.',
     noReport:
-      '<code>./rigor docs --report</code> also makes the reference report of this version: every scenario of the suite <code>standard</code> on every installed engine. It takes some minutes and stands in the folder <code>report</code> of this site.',
+      '<code>./rigor docs --report</code> also makes the reference report of this version: every scenario of the suite <code>standard</code> on every installed engine. It takes minutes, with all engines hours, and stands in the folder <code>report</code> of this site.',
     command: 'command',
     part: 'Reference and gallery',
   },
@@ -106,8 +106,8 @@ export const referenceWords: Record<Language, ReferenceWords> = {
     suiteSize: (count) => `${count} 个场景`,
     studies: '研究',
     studiesText: '供 rigor study 使用的选项组合；旁边列出 --part 可选的部分。',
-    metrics: '度量',
-    metricsText: '每个度量都是从轨迹到一个数的纯函数，对所有引擎相同。标题为英文。',
+    metrics: '指标',
+    metricsText: '每个指标都是从轨迹到一个数的纯函数，对所有引擎相同。标题为英文。',
     metricFacts: (kind, unit) => `${kind}，单位 ${unit}`,
     references: '参考解',
     referencesText: '场景在 "reference" 键下引用的精确解及其出处。标题为英文。',
@@ -124,7 +124,7 @@ export const referenceWords: Record<Language, ReferenceWords> = {
       `版本 ${version} 场景库中的一些场景，均由 <code>rigor draw</code> 绘制；<code>./rigor docs</code> 一次生成全部。`,
     report: '本版本的参考报告</a>：套件 <code>standard</code> 的每个场景在每个已安装引擎上的结果（英文）。',
     noReport:
-      '<code>./rigor docs --report</code> 另外生成本版本的参考报告：套件 <code>standard</code> 的每个场景在每个已安装引擎上的结果。需要几分钟，放在本站点的 <code>report</code> 文件夹中。',
+      '<code>./rigor docs --report</code> 另外生成本版本的参考报告：套件 <code>standard</code> 的每个场景在每个已安装引擎上的结果。需要几分钟，装齐所有引擎时要几小时，放在本站点的 <code>report</code> 文件夹中。',
     command: '命令',
     part: '参考与图库',
   },
@@ -173,7 +173,7 @@ export const chineseHeadings: Readonly<Record<string, string>> = {
   'Relative error': '相对误差',
   Grades: '等级',
   "Comparison with the engine's scheme": '与引擎自身格式比较',
-  'Adding a metric to it': '增加一个度量',
+  'Adding a metric to it': '增加一个指标',
   'Where the engine ends': '引擎的局限',
   'Motion, joints and contacts': '运动、关节与接触',
   Surfaces: '表面',
