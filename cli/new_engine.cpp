@@ -43,21 +43,20 @@ const std::vector<Template>& templates() {
           {"adapters/guest/examples/free_flight_python/free_flight.py", "NAME.py"},
           {"adapters/guest/examples/free_flight_python/rigor_adapter_free_flight_python.json",
            "rigor_adapter_NAME.json"}},
-         "RIGOR_ADAPTER_PATH=FOLDER rigor conform NAME"},
+         "RIGOR_ADAPTER_PATH=FOLDER PROGRAM conform NAME"},
         {"javascript",
          "free_flight_javascript",
          {{"adapters/guest/sdk/rigor_guest.mjs", "rigor_guest.mjs"},
           {"adapters/guest/examples/free_flight_javascript/free_flight.mjs", "NAME.mjs"},
           {"adapters/guest/examples/free_flight_javascript/rigor_adapter_free_flight_javascript.json",
            "rigor_adapter_NAME.json"}},
-         "RIGOR_ADAPTER_PATH=FOLDER rigor conform NAME"},
+         "RIGOR_ADAPTER_PATH=FOLDER PROGRAM conform NAME"},
         {"cpp",
          "free_flight",
          {{"adapters/conformance/examples/free_flight.cpp", "NAME.cpp"},
           {"adapters/conformance/examples/CMakeLists.txt.in", "CMakeLists.txt"}},
          "cmake -S FOLDER -B FOLDER/build && cmake --build FOLDER/build && RIGOR_ADAPTER_PATH=FOLDER/build "
-         "rigor "
-         "conform NAME"}};
+         "PROGRAM conform NAME"}};
     return table;
 }
 
@@ -112,8 +111,12 @@ int newEngine(const NewEngineArguments& a) {
         if (!out.flush()) throw std::runtime_error("cannot write " + to.string());
         std::printf("%s\n", to.string().c_str());
     }
-    const std::string next = replaced(replaced(t.next, "NAME", a.name), "FOLDER", folder.string());
-    std::printf("next: %s\n", next.c_str());
+    const std::string next = replaced(replaced(replaced(t.next, "NAME", a.name), "FOLDER", folder.string()),
+                                      "PROGRAM", scenario::programName());
+    const std::string modules =
+        replaced(next.substr(next.find("RIGOR_ADAPTER_PATH")), "conform " + a.name, "");
+    std::printf("next: %s\nthen: %svalidate smoke --engines %s,bullet\n", next.c_str(), modules.c_str(),
+                a.name.c_str());
     return kOk;
 }
 

@@ -96,7 +96,8 @@ bool isLost(Shown s) {
 
 struct Sums {
     GeometricMean toBest, toOurs, costRatio;
-    std::vector<double> costs;
+    std::vector<double> costs;       ///< costs of graded scenarios, whose errors stand beside them
+    std::vector<double> otherCosts;  ///< costs of those that ran without an exact solution
 };
 
 void count(const ViewModel& view, const Cell& cell, const CaseRow* at, double cheapest, Ranking& ranking,
@@ -107,13 +108,14 @@ void count(const ViewModel& view, const Cell& cell, const CaseRow* at, double ch
     ranking.red +=
         std::any_of(cell.cases.begin(), cell.cases.end(), [](const CaseRow* row) { return isRed(*row); });
     if (at == nullptr || at->outcome != Outcome::Completed) return;
+    const bool isGraded = at->accuracy.grade != Grade::None;
     if (const double cost = costOf(at); cost > 0.0) {
-        sums.costs.push_back(cost);
+        (isGraded ? sums.costs : sums.otherCosts).push_back(cost);
         sums.costRatio.add(cost / cheapest);
     }
     ranking.known += at->verdict == results::Verdict::KnownDeviation;
     const auto& accuracy = at->accuracy;
-    if (accuracy.grade == Grade::None) {
+    if (!isGraded) {
         ++ranking.ungraded;
         return;
     }
@@ -132,15 +134,17 @@ bool isCandidate(const Mechanism& m, std::size_t column) {
     return s.scenarios > s.lost && 2 * (s.scenarios - s.lost) >= most && std::isfinite(s.toBest);
 }
 
-/// Least share of lost cases and grade E first, then the most within a hundredth, then the smallest error.
-void rank(Mechanism& m) {
+/// Least share of lost cases and grade E first, then the most within a hundredth, then the smallest error, then the least
+/// cost by the same clock.
+void rank(const ViewModel& view, Mechanism& m) {
     for (std::size_t c = 0; c < m.rankings.size(); ++c)
         if (m.rankings[c].scenarios > 0) m.order.push_back(c);
     const auto key = [&](std::size_t c) {
         const Ranking& s = m.rankings[c];
         const double all = s.scenarios;
         return std::tuple(!isCandidate(m, c), (s.lost + s.grades[4]) / all, -(s.within() / all),
-                          std::isfinite(s.toBest) ? s.toBest : 1e300);
+                          std::isfinite(s.toBest) ? s.toBest : 1e300, view.columns()[c].clock,
+                          std::isfinite(s.cost) ? s.cost : 1e300);
     };
     std::stable_sort(m.order.begin(), m.order.end(), [&](auto a, auto b) { return key(a) < key(b); });
     if (!m.order.empty() && isCandidate(m, m.order.front())) m.best = m.order.front();
@@ -193,10 +197,11 @@ Mechanism rankingsOver(const ViewModel& view, const std::vector<std::size_t>& sc
     for (std::size_t c = 0; c < sums.size(); ++c) {
         m.rankings[c].toBest = sums[c].toBest.value();
         m.rankings[c].toOurs = sums[c].toOurs.value();
-        m.rankings[c].cost = sums[c].costs.empty() ? kNoNumber : validation::median(sums[c].costs);
+        const std::vector<double>& costs = sums[c].costs.empty() ? sums[c].otherCosts : sums[c].costs;
+        m.rankings[c].cost = costs.empty() ? kNoNumber : validation::median(costs);
         m.rankings[c].costRatio = sums[c].costRatio.value();
     }
-    rank(m);
+    rank(view, m);
     return m;
 }
 

@@ -85,7 +85,8 @@ struct Ranking {
     int red = 0;                  ///< scenarios with a red case at any time step
     double toBest = kNoNumber;    ///< geometric means of Ratios
     double toOurs = kNoNumber;
-    double cost = kNoNumber;       ///< median over the scenarios of the median of a step [s]
+    /// Median over the graded scenarios of the median of a step, over all where none is graded [s].
+    double cost = kNoNumber;
     double costRatio = kNoNumber;  ///< geometric mean over the cheapest one's of the same clock
 
     /// Scenarios of grade C or better: within a hundredth of the scenario's own scale.

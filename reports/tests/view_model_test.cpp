@@ -201,6 +201,21 @@ TEST(ViewModel, AFailureAtAnyTimeStepWeighsMoreThanASmallError) {
     EXPECT_EQ(view.mechanisms()[0].rankings[0].lost, 1);
 }
 
+TEST(ViewModel, CostsAreOfGradedScenariosAndTellEqualErrorsApart) {
+    results::Run run = twoScenarios();
+    const auto timed = [](CaseRow c, double median) {
+        c.timings.push_back({.phase = "step", .median = median, .samples = 10});
+        return c;
+    };
+    CaseRow heap = timed(makeCase("b", "one", 0.01, 1.0), 8.0);
+    heap.accuracy = {};
+    run.cases = {timed(makeCase("a", "one", 0.01, 1e-9), 4.0), heap,
+                 timed(makeCase("a", "two", 0.01, 1e-9), 2.0)};
+    const auto m = ViewModel(run).mechanisms().at(0);
+    EXPECT_DOUBLE_EQ(m.rankings[0].cost, 4.0) << "the step of what has no exact solution is not the stack's";
+    EXPECT_EQ(m.order, (std::vector<std::size_t>{1, 0})) << "equal errors, the cheaper first";
+}
+
 TEST(ViewModel, ErrorsAreComparedAtTheSameTimeStepAlone) {
     results::Run run = twoScenarios();
     run.cases = {makeCase("a", "one", 0.001, 1e-6), makeCase("a", "two", 0.1, 1e-9)};

@@ -97,7 +97,8 @@ void compareVerdicts(const CasePair& pair, RunComparison& all) {
     const Verdict before = pair.before->verdict, after = pair.after->verdict;
     if (before == after) return;
     all.verdicts.push_back({placeOf(pair), results::verdictName(before), results::verdictName(after),
-                            pair.after->reason, badness(after) > badness(before)});
+                            pair.after->reason, badness(after) > badness(before),
+                            badness(after) < badness(before)});
 }
 
 /// One way to say what a step costs [s].

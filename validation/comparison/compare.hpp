@@ -40,7 +40,8 @@ struct MetricChange {
 struct VerdictChange {
     ComparedPlace place;
     std::string before, after, reason;
-    bool worse = false;
+    bool worse = false,
+         better = false;  ///< neither between a run and one that an engine can not take part in
 };
 
 /// One engine spec over all cases that both have, or one pair of specs or of time steps over all scenarios.

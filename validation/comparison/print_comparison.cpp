@@ -91,8 +91,11 @@ std::string comparisonText(const RunComparison& c, const CompareOptions& options
     };
     const std::string changed = c.pairBy == PairBy::Nothing ? "changed" : "differ";
     addSome(text, "Verdicts that " + changed, c.verdicts, most, [&](const VerdictChange& v) {
-        return std::string(v.worse ? "worse   " : "better  ") + where(v) + ": " + v.before + " -> " +
-               v.after + (v.reason.empty() ? "" : " (" + v.reason + ")");
+        return std::string(v.worse    ? "worse   "
+                           : v.better ? "better  "
+                                      : "other   ") +
+               where(v) + ": " + v.before + " -> " + v.after +
+               (v.reason.empty() ? "" : " (" + v.reason + ")");
     });
     addSome(text, "Errors that " + changed + " by more than " + number(100.0 * options.tolerance) + " %",
             c.metrics, most, [&](const MetricChange& m) {

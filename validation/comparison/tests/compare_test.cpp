@@ -93,6 +93,12 @@ TEST(Compare, Verdicts) {
     EXPECT_TRUE(becameWorse(c));
     EXPECT_FALSE(becameWorse(compareRuns({after}, {exampleRun()})));
     EXPECT_NE(comparisonText(c, {}, 5).find("pass -> fail (why)"), std::string::npos);
+    after.cases[3].verdict = Verdict::Unsupported;
+    const auto refused = compareRuns({exampleRun()}, {after});
+    ASSERT_EQ(refused.verdicts.size(), 1u);
+    EXPECT_FALSE(refused.verdicts[0].worse || refused.verdicts[0].better)
+        << "what can not be run is no success";
+    EXPECT_NE(comparisonText(refused, {}, 5).find("other   "), std::string::npos);
 }
 
 /// 20 % slower in every case: shown. A time that is slower in half the cases and faster in half is not

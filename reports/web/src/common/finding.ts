@@ -18,12 +18,17 @@ export interface ContactFinding {
   contact: number; // place among the stored contacts of the frame, -1: none of them
   /** The engine's deepest contact; null: it found none. */
   said: { normal: Point; depth: number; pointA: Point; pointB: Point } | null;
+  /** Engine that was queried at the poses of the run; none where the contact is the run's own. */
+  by?: string;
   /** Null where no exact method is known. */
   exact: { distance: number; normals: Point[]; pointA: Point; pointB: Point } | null;
 }
 
 /** Name of a finding in addresses: auditor and kind. */
 export const findingKey = (auditor: string, what: ContactFinding['what']): string => `${auditor}~${what}`;
+
+/** Name of what said it, in labels. */
+export const speaker = (finding: ContactFinding): string => finding.by ?? 'engine';
 
 /** Angle of two directions [rad]. */
 export function angleBetween(a: Point, b: Point): number {

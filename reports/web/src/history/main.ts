@@ -84,9 +84,14 @@ const withReplay = new Set(replayable(data.series).map(caseKey));
 const replayLink = (key: string): Child =>
   withReplay.has(key) ? [' ', el('a', { href: `#${new URLSearchParams({ replay: key })}` }, 'side by side')] : null;
 
+const pairs =
+  '`rigor compare --pair dt`, `spec` or `engine` compares runs with other time steps, settings and engines.';
+const noCase = `They have no case in common. ${pairs}`;
+const otherCases = (change: Change): string => (change.only_before.length && change.only_after.length ? pairs : '');
+
 function changeNode(change: Change | null, index: number): HTMLElement {
   const title = `Run ${index + 1} to ${index + 2}: ${data.runs[index]?.name} → ${data.runs[index + 1]?.name}`;
-  if (change === null) return el('div', null, el('h3', null, title), el('p', null, 'They have no case in common.'));
+  if (change === null) return el('div', null, el('h3', null, title), el('p', null, noCase));
   const listed = <T>(all: T[], line: (x: T) => Child): Child =>
     all.length === 0
       ? null
@@ -109,7 +114,9 @@ function changeNode(change: Change | null, index: number): HTMLElement {
     'div',
     { class: 'change', 'data-to': index + 1 },
     el('h3', null, title),
-    change.verdicts.length + change.metrics.length === 0 ? el('p', null, 'No ending and no error changed.') : null,
+    change.verdicts.length + change.metrics.length === 0
+      ? el('p', null, `No ending and no error of the cases that both have changed. ${otherCases(change)}`)
+      : null,
     listed(change.verdicts, (v) => [
       sign(v.worse),
       `${where(v)}: ${v.before} → ${v.after}`,

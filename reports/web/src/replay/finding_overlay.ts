@@ -4,7 +4,7 @@
 // A finding of the contact audit in the picture: the engine's normal and witness points, the exact ones, and the angle
 // between the normals in true size. Seen through everything.
 import { Color, Group } from 'three';
-import { angleBetween, type ContactFinding, nearestExact, placeOf } from '../common/finding.ts';
+import { angleBetween, type ContactFinding, nearestExact, placeOf, speaker } from '../common/finding.ts';
 import type { Theme } from './colours.ts';
 import { type Arrow, Dots, FatLines } from './line_batch.ts';
 import type { Vec3 } from './vectors.ts';
@@ -59,9 +59,10 @@ export function findingNotes(finding: ContactFinding, length: number): Note[] {
   const { said } = finding;
   const exact = nearestExact(finding);
   const notes: Note[] = [];
-  if (said) notes.push({ at: along(at, said.normal, length), text: 'engine', kind: 'engine' });
+  if (said) notes.push({ at: along(at, said.normal, length), text: speaker(finding), kind: 'engine' });
   if (exact) notes.push({ at: along(at, exact, exactLength * length), text: 'exact', kind: 'exact' });
-  if (!said) notes.push({ at, text: 'no contact of the engine', kind: 'engine' });
+  if (!said)
+    notes.push({ at, text: finding.by ? `no contact of ${finding.by}` : 'no contact of the engine', kind: 'engine' });
   if (said && exact && finding.what === 'depth') {
     const apart = -(finding.exact?.distance ?? Number.NaN);
     const kind = apart < 0 ? 'distance' : 'depth';

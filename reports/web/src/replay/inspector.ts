@@ -125,11 +125,21 @@ export class Inspector {
     const numbers = finding
       ? [
           el('dl', {}, time, findingRows(finding)),
-          el('details', {}, el('summary', {}, 'contact as stored'), el('dl', {}, rows)),
+          el(
+            'details',
+            {},
+            el('summary', {}, `contact as ${finding.by ? `${source.label} stored it` : 'stored'}`),
+            el('dl', {}, rows),
+          ),
         ]
       : [el('dl', {}, time, rows)];
     this.element.replaceChildren(
-      el('div', { class: 'who' }, el('i', { style: `background:${source.colour}` }), source.label),
+      el(
+        'div',
+        { class: 'who' },
+        el('i', { style: `background:${source.colour}` }),
+        finding?.by ? `${finding.by}, queried at the poses of ${source.label}` : source.label,
+      ),
       ...numbers,
     );
   }

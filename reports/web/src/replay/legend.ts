@@ -3,6 +3,7 @@
 //
 // Meaning of the colours of the picture, for the layers that are on, and how long an arrow of full length is.
 import { type Child, el } from '../common/elements.ts';
+import type { ContactFinding } from '../common/finding.ts';
 import type { Theme } from './colours.ts';
 import type { ViewOptions } from './layers.ts';
 import type { ArrowScales } from './overlays.ts';
@@ -21,11 +22,11 @@ export function legendOf(
   { layers, overlaid, arrows, exaggeration }: ViewOptions,
   theme: Theme,
   scales: ArrowScales,
-  has: { finding: boolean; contacts: boolean; joints: boolean; reference: boolean },
+  has: { finding: ContactFinding | null; contacts: boolean; joints: boolean; reference: boolean },
 ): Entry[] {
   const entries: [on: boolean, colour: string, text: string][] = [
-    [has.finding, theme.normal, 'normal and points of the engine'],
-    [has.finding, theme.exact, 'exact normals and points'],
+    [has.finding !== null, theme.normal, `normal and points of ${has.finding?.by ?? 'the engine'}`],
+    [has.finding !== null, theme.exact, 'exact normals and points'],
     [layers.contacts && has.contacts && !overlaid && !has.finding, theme.contact, 'contact point'],
     [layers.normals && has.contacts && !overlaid && !has.finding, theme.normal, 'normal, from A to B'],
     [

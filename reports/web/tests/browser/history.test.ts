@@ -22,7 +22,7 @@ describe('the history of three runs', { skip }, () => {
       await it.page.locator('#runs tbody tr td:nth-child(2)').allTextContents(),
       stored().runs.map((r) => r.name),
     );
-    assert.match(await it.text('#changes > div'), /no case in common/);
+    assert.match(await it.text('#changes > div'), /no case in common.*rigor compare --pair dt/);
     const change = stored().changes[1];
     assert.ok(change);
     const text = await it.text('#changes .change');

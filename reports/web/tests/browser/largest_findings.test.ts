@@ -91,6 +91,8 @@ describe('the contacts with the largest errors', { skip }, () => {
       const angle = angleOf(engine, exact);
       assert.ok(Math.abs(angle - found.error) < 2e-6 + 1e-5 * found.error, `${at}: ${angle} for ${found.error} rad`);
       assert.ok(near(engine, found.said?.normal as Point), at);
+      const who = await it.text('.replay .inspector.pinned .who');
+      assert.equal(who.startsWith(`${auditor}, queried at the poses of `), auditor !== 'in_run', `${at}: ${who}`);
     }
     it.clean();
   });

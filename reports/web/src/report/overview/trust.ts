@@ -55,7 +55,7 @@ function answer(m: Mechanism, list: Placed[]): Child {
     { class: 'answer' },
     'Nearest to the exact solutions: ',
     el('b', null, best.column.label),
-    `, within a hundredth of the scene’s own scale in ${best.within} of ${best.scenarios}${error}${cost}.`,
+    `, within a hundredth of the scene’s own scale in ${best.within} of ${best.scenarios - best.ungraded} that can be graded${error}${cost}.`,
   );
 }
 
@@ -132,8 +132,8 @@ export function trust(): HTMLElement | null {
     el(
       'p',
       { class: 'muted' },
-      'In the order of: fewest runs lost or of grade E, then most within a hundredth of the scenario’s own scale (grade C or better), then the smallest error, all at the same ',
-      'time step. “× best” is the typical error over the most accurate engine’s, “× ours” over that of ',
+      'In the order of: fewest runs lost or of grade E, then most within a hundredth of the scenario’s own scale (grade C or better), then the smallest error, then the least time of a step, all at the same ',
+      'time step; steps are timed in scenes that can be graded. “× best” is the typical error over the most accurate engine’s, “× ours” over that of ',
       run.inHouse,
       ' in the same preset; errors within grade A count as equal. An engine by itself: ',
       [...new Set(run.columns.map((c) => c.engine))].map((e, i) => [

@@ -17,12 +17,11 @@ interface Wrong {
   spec: string;
   dt: number;
   normal: Maybe; // [rad]
-  place: Place;
+  place: Place | null; // null: the run's worst error is a missed or false contact, whose place is the one on record
 }
 
 /**
- * Contacts that runs acted upon, the worst first; runs whose worst error is a missed or false overlap are listed by
- * that.
+ * Contacts that runs acted upon, the worst first.
  */
 function wrongNormals(engine: string): Wrong[] {
   const specs = new Set(run.columns.filter((c) => c.engine === engine).map((c) => c.spec));
@@ -31,8 +30,13 @@ function wrongNormals(engine: string): Wrong[] {
     for (const c of scenario.cases) {
       if (!specs.has(c.spec) || !(toNumber(c.inRun?.normal) > noticeable)) continue;
       const place = worstPlace(c.inRun?.worst ?? '');
-      if (place?.what === 'normal')
-        found.push({ scenario, spec: c.spec, dt: c.dt, normal: c.inRun?.normal ?? null, place });
+      found.push({
+        scenario,
+        spec: c.spec,
+        dt: c.dt,
+        normal: c.inRun?.normal ?? null,
+        place: place?.what === 'normal' ? place : null,
+      });
     }
   return found.sort((a, b) => toNumber(b.normal) - toNumber(a.normal));
 }
@@ -50,16 +54,23 @@ function worstScenarios(engine: string): Wrong[] {
 }
 
 function row(w: Wrong, head: Child): HTMLElement {
-  const href = scenarioLink(w.scenario.name, { spec: w.spec, ...placeQuery(w.place, w.dt) });
+  const href = scenarioLink(
+    w.scenario.name,
+    w.place ? { spec: w.spec, ...placeQuery(w.place, w.dt) } : { spec: w.spec, dt: w.dt },
+  );
   return el(
     'tr',
     null,
     head,
     el('td', { class: 'num', title: `${full(w.normal)} rad` }, angle(w.normal)),
     el('td', null, w.scenario.title),
-    el('td', null, w.place.bodies.join(' and ')),
+    el('td', null, w.place?.bodies.join(' and ') ?? ''),
     el('td', null, `${labelOf(w.spec)}, ${timeStep(w.dt)}`),
-    el('td', null, el('a', { class: 'frame', href }, `show t = ${format(w.place.time)} s`)),
+    el(
+      'td',
+      null,
+      el('a', { class: 'frame', href }, w.place ? `show t = ${format(w.place.time)} s` : 'its contact audit'),
+    ),
   );
 }
 

@@ -61,7 +61,8 @@ export function moment(
 export function findingOf(cases: Case[], spec: string, key: string): ContactFinding | null {
   const rows = cases.find((c) => c.spec === spec)?.audit ?? [];
   for (const { auditor, findings = [] } of rows)
-    for (const found of findings) if (findingKey(auditor, found.what) === key) return found;
+    for (const found of findings)
+      if (findingKey(auditor, found.what) === key) return auditor === 'in_run' ? found : { ...found, by: auditor };
   return null;
 }
 
