@@ -27,8 +27,8 @@ export interface ContactFinding {
 /** Name of a finding in addresses: auditor and kind. */
 export const findingKey = (auditor: string, what: ContactFinding['what']): string => `${auditor}~${what}`;
 
-/** Name of what said it, in labels. */
-export const speaker = (finding: ContactFinding): string => finding.by ?? 'engine';
+/** Name of what reported the contact, in sentences. */
+export const speaker = (finding: ContactFinding | null): string => finding?.by ?? 'the engine';
 
 /** Angle of two directions [rad]. */
 export function angleBetween(a: Point, b: Point): number {

@@ -59,10 +59,9 @@ export function findingNotes(finding: ContactFinding, length: number): Note[] {
   const { said } = finding;
   const exact = nearestExact(finding);
   const notes: Note[] = [];
-  if (said) notes.push({ at: along(at, said.normal, length), text: speaker(finding), kind: 'engine' });
+  if (said) notes.push({ at: along(at, said.normal, length), text: finding.by ?? 'engine', kind: 'engine' });
   if (exact) notes.push({ at: along(at, exact, exactLength * length), text: 'exact', kind: 'exact' });
-  if (!said)
-    notes.push({ at, text: finding.by ? `no contact of ${finding.by}` : 'no contact of the engine', kind: 'engine' });
+  if (!said) notes.push({ at, text: `no contact of ${speaker(finding)}`, kind: 'engine' });
   if (said && exact && finding.what === 'depth') {
     const apart = -(finding.exact?.distance ?? Number.NaN);
     const kind = apart < 0 ? 'distance' : 'depth';

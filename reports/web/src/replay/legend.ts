@@ -3,7 +3,7 @@
 //
 // Meaning of the colours of the picture, for the layers that are on, and how long an arrow of full length is.
 import { type Child, el } from '../common/elements.ts';
-import type { ContactFinding } from '../common/finding.ts';
+import { type ContactFinding, speaker } from '../common/finding.ts';
 import type { Theme } from './colours.ts';
 import type { ViewOptions } from './layers.ts';
 import type { ArrowScales } from './overlays.ts';
@@ -25,7 +25,7 @@ export function legendOf(
   has: { finding: ContactFinding | null; contacts: boolean; joints: boolean; reference: boolean },
 ): Entry[] {
   const entries: [on: boolean, colour: string, text: string][] = [
-    [has.finding !== null, theme.normal, `normal and points of ${has.finding?.by ?? 'the engine'}`],
+    [has.finding !== null, theme.normal, `normal and points of ${speaker(has.finding)}`],
     [has.finding !== null, theme.exact, 'exact normals and points'],
     [layers.contacts && has.contacts && !overlaid && !has.finding, theme.contact, 'contact point'],
     [layers.normals && has.contacts && !overlaid && !has.finding, theme.normal, 'normal, from A to B'],

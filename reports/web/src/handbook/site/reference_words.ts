@@ -83,7 +83,7 @@ export const referenceWords: Record<Language, ReferenceWords> = {
     report:
       'The reference report of this version</a>: every scenario of the suite <code>standard</code> on every installed engine.',
     noReport:
-      '<code>./rigor docs --report</code> also makes the reference report of this version: every scenario of the suite <code>standard</code> on every installed engine. It takes minutes, with all engines hours, and stands in the folder <code>report</code> of this site.',
+      '<code>./rigor docs --report</code> also makes the reference report of this version: every scenario of the suite <code>standard</code> on every installed engine. It takes minutes, with all engines hours, and is in the folder <code>report</code> of this site.',
     command: 'command',
     part: 'Reference and gallery',
   },

@@ -20,9 +20,7 @@ interface Wrong {
   place: Place | null; // null: the run's worst error is a missed or false contact, whose place is the one on record
 }
 
-/**
- * Contacts that runs acted upon, the worst first.
- */
+/** Contacts that runs acted upon, the worst first. */
 function wrongNormals(engine: string): Wrong[] {
   const specs = new Set(run.columns.filter((c) => c.engine === engine).map((c) => c.spec));
   const found: Wrong[] = [];
@@ -54,10 +52,7 @@ function worstScenarios(engine: string): Wrong[] {
 }
 
 function row(w: Wrong, head: Child): HTMLElement {
-  const href = scenarioLink(
-    w.scenario.name,
-    w.place ? { spec: w.spec, ...placeQuery(w.place, w.dt) } : { spec: w.spec, dt: w.dt },
-  );
+  const href = scenarioLink(w.scenario.name, { spec: w.spec, ...placeQuery(w.place, w.dt) });
   return el(
     'tr',
     null,
