@@ -7,7 +7,6 @@
 #include "reports/encoding/text.hpp"
 
 namespace rigor::report {
-namespace {
 
 bool isNumeric(const TableColumn& column) {
     return column.kind != ColumnKind::Text;
@@ -19,7 +18,6 @@ std::string titleOf(const TableColumn& column) {
     return column.title + " [" + column.unit + "]";
 }
 
-/// A count stays a count: "12400", not "1.24e+04".
 std::string readableNumber(double value) {
     if (value == std::floor(value) && std::abs(value) < 1e9) {
         char text[32];
@@ -29,12 +27,13 @@ std::string readableNumber(double value) {
     return shortNumber(value);
 }
 
-/// The number as people read it, in plain text.
 std::string readable(const TableColumn& column, double value) {
     if (column.kind == ColumnKind::Duration) return durationLabel(value);
     if (column.kind == ColumnKind::TimeStep) return timeStepLabel(value);
     return readableNumber(value);
 }
+
+namespace {
 
 // ---- CSV ----
 
@@ -60,35 +59,6 @@ std::string markdownValue(const TableColumn& column, const TableCell& cell) {
     text = std::string(shown.symbol) + " " + (text.empty() ? shown.word : text);
     if (cell.bound) text += " (≤ " + readableNumber(*cell.bound) + ")";
     return text;
-}
-
-// ---- LaTeX ----
-
-std::string latexNumber(double value) {
-    if (std::isnan(value)) return "NaN";
-    if (std::isinf(value)) return value > 0 ? "$\\infty$" : "$-\\infty$";
-    const std::string text = readableNumber(value);
-    const auto e = text.find('e');
-    if (e == std::string::npos) return "$" + text + "$";
-    return "$" + text.substr(0, e) + " \\times 10^{" + std::to_string(std::stoi(text.substr(e + 1))) + "}$";
-}
-
-std::string latexValue(const TableColumn& column, const TableCell& cell) {
-    const bool plainNumber = column.kind == ColumnKind::Number || column.kind == ColumnKind::Judged;
-    std::string text = !cell.number  ? latexText(cell.text)
-                       : plainNumber ? latexNumber(*cell.number)
-                                     : latexText(readable(column, *cell.number));
-    if (!cell.verdict) return text;
-    if (cell.bound) text += " ($\\le$ " + latexNumber(*cell.bound) + ")";
-    if (*cell.verdict == Shown::Pass || *cell.verdict == Shown::NoBound) return text;
-    const std::string word = latexText(shownText(*cell.verdict).word);
-    return text.empty() ? word : text + " " + word;
-}
-
-std::string latexRow(const std::vector<std::string>& cells) {
-    std::string line;
-    for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? " & " : "") + cells[i];
-    return line + " \\\\\n";
 }
 
 }  // namespace
@@ -136,28 +106,6 @@ std::string tableMarkdown(const Table& table) {
         out += "\n";
     }
     return out;
-}
-
-std::string tableLatex(const Table& table) {
-    std::string format, label = table.name;
-    std::vector<std::string> head;
-    for (const auto& column : table.columns) {
-        format += isNumeric(column) ? 'r' : 'l';
-        head.push_back(latexText(titleOf(column)));
-    }
-    for (char& c : label)
-        if (!std::isalnum(static_cast<unsigned char>(c))) c = '-';
-    const std::string top = "\\toprule\n" + latexRow(head) + "\\midrule\n";
-    std::string out = "% Needs \\usepackage{booktabs,longtable}.\n\\begin{longtable}{" + format +
-                      "}\n\\caption{" + latexText(table.caption) + "}\\label{tab:" + label + "}\\\\\n" + top +
-                      "\\endfirsthead\n" + top + "\\endhead\n\\bottomrule\n\\endlastfoot\n";
-    for (const auto& row : table.rows) {
-        std::vector<std::string> cells;
-        for (std::size_t c = 0; c < table.columns.size(); ++c)
-            cells.push_back(latexValue(table.columns[c], row[c]));
-        out += latexRow(cells);
-    }
-    return out + "\\end{longtable}\n";
 }
 
 }  // namespace rigor::report

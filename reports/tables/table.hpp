@@ -55,8 +55,19 @@ struct Table {
 std::string tableCsv(const Table& table);
 /// The caption, then a GitHub table.
 std::string tableMarkdown(const Table& table);
-/// A longtable with the rules of booktabs, to be \input; its first line says which packages it needs.
+/// Longtables with the rules of booktabs, to be \input; the first line says which packages they need. A table that is
+/// wider than the text of an article in a small size wraps its texts, and continues in further tables, each with the
+/// first columns again.
 std::string tableLatex(const Table& table);
+
+/// True for columns of numbers.
+bool isNumeric(const TableColumn& column);
+/// The title with the unit.
+std::string titleOf(const TableColumn& column);
+/// A number in few digits; a count stays a count: "12400", not "1.24e+04".
+std::string readableNumber(double value);
+/// The number of a column as people read it, in plain text.
+std::string readable(const TableColumn& column, double value);
 
 /// Plain text as LaTeX: its special characters escaped, what pdflatex does not know of Unicode replaced.
 std::string latexText(std::string_view text);
@@ -67,6 +78,8 @@ struct TableEntry {
     std::vector<Table> (*make)(const ViewModel& view);
 };
 const std::vector<TableEntry>& tableEntries();
+/// Name of the table with the metrics of a scenario.
+std::string scenarioTableName(const results::ScenarioRow& scenario);
 std::vector<Table> allTables(const ViewModel& view);
 
 }  // namespace rigor::report

@@ -155,7 +155,7 @@ std::vector<Table> metricsOfScenarios(const ViewModel& view) {
     std::vector<Table> tables;
     for (std::size_t s = 0; s < view.run().scenarios.size(); ++s) {
         const auto& scenario = view.run().scenarios[s];
-        Table table{"scenarios/" + fileNamePart(scenario.name),
+        Table table{scenarioTableName(scenario),
                     scenario.name + ": every metric of the whole scene, with verdict and bound",
                     {{"dt", ColumnKind::TimeStep, "s"}, {"metric"}, {"kind"}, {"unit"}},
                     {},
@@ -163,8 +163,11 @@ std::vector<Table> metricsOfScenarios(const ViewModel& view) {
         std::map<std::pair<double, std::string>, std::vector<TableCell>> rows;
         std::vector<std::pair<double, std::string>> order;
         for (std::size_t c = 0; c < view.columns().size(); ++c) {
+            const auto& cases = view.cell(s, c).cases;
+            if (std::all_of(cases.begin(), cases.end(), [](const auto* row) { return row->metrics.empty(); }))
+                continue;  // an engine that does not take part
             table.columns.push_back({view.columns()[c].label, ColumnKind::Judged});
-            for (const auto* row : view.cell(s, c).cases)
+            for (const auto* row : cases)
                 for (const auto& m : row->metrics) {
                     if (!m.subject.empty()) continue;
                     auto& cells = rows[{row->dt, m.name}];
@@ -172,7 +175,7 @@ std::vector<Table> metricsOfScenarios(const ViewModel& view) {
                         cells = {row->dt, m.name, m.kind, m.unit};
                         order.emplace_back(row->dt, m.name);
                     }
-                    cells.resize(4 + c);
+                    cells.resize(table.columns.size() - 1);
                     cells.push_back(m.value);
                     if (m.bound || m.expectation) cells.back().verdict = shownOf(m);
                     cells.back().bound = m.bound;
@@ -377,6 +380,10 @@ const std::vector<TableEntry>& tableEntries() {
         {"ledger", ledger},         {"scenarios", metricsOfScenarios},
         {"bench", benchTables}};
     return entries;
+}
+
+std::string scenarioTableName(const results::ScenarioRow& scenario) {
+    return "scenarios/" + fileNamePart(scenario.name);
 }
 
 std::vector<Table> allTables(const ViewModel& view) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -40,8 +41,45 @@ int countBare(const std::string& text, char mark) {
     return count;
 }
 
+/// The lines between the outermost begin and end of each longtable.
+std::vector<std::vector<std::string>> longtablesOf(const std::string& tex) {
+    std::vector<std::vector<std::string>> all;
+    bool inside = false;
+    for (const auto& line : linesOf(tex)) {
+        if (line.starts_with("\\begin{longtable}")) all.emplace_back();
+        inside = inside || line.starts_with("\\begin{longtable}");
+        if (inside) all.back().push_back(line);
+        if (line == "\\end{longtable}") inside = false;
+    }
+    return all;
+}
+
+/// Columns of a longtable by its format: l and r, and p with a width behind the way it is set.
+int columnsOf(const std::string& begin) {
+    const std::string format = begin.substr(std::string("\\begin{longtable}").size());
+    int columns = 0, depth = 0;
+    for (const char c : format) {
+        depth += c == '{' ? 1 : c == '}' ? -1 : 0;
+        columns += depth == 1 && (c == 'l' || c == 'r' || c == 'p');
+    }
+    return columns;
+}
+
+/// Text of one longtable that pdflatex would refuse: "" if there is none.
+std::string rowFault(const std::vector<std::string>& lines) {
+    if (lines.size() < 9 || lines.back() != "\\end{longtable}") return "no longtable";
+    for (const auto& line : lines) {
+        if (countBare(line, '$') % 2 != 0) return "half a formula: " + line;
+        if (countBare(line, '#') + countBare(line, '%') + countBare(line, '~') > 0) return "bare: " + line;
+        const bool isRow = line.ends_with(" \\\\");
+        if (isRow && countBare(line, '&') + 1 != columnsOf(lines.front())) return "cells: " + line;
+        if (!isRow && countBare(line, '&') > 0) return "half a row: " + line;
+    }
+    return "";
+}
+
 /// Text that pdflatex would refuse: "" if there is none.
-std::string latexFault(const std::string& tex, std::size_t columns) {
+std::string latexFault(const std::string& tex) {
     std::vector<std::string> open;
     for (std::size_t i = 0; i < tex.size(); ++i) {
         const auto c = static_cast<unsigned char>(tex[i]);
@@ -57,17 +95,10 @@ std::string latexFault(const std::string& tex, std::size_t columns) {
         }
     }
     if (!open.empty()) return "an open brace";
-    const auto lines = linesOf(tex);
-    if (lines.size() < 12 || lines[1].find("\\begin{longtable}{") != 0 || lines.back() != "\\end{longtable}")
-        return "no longtable";
-    for (const auto& line : lines) {
-        if (line.starts_with("%")) continue;
-        if (countBare(line, '$') % 2 != 0) return "half a formula: " + line;
-        if (countBare(line, '#') + countBare(line, '%') + countBare(line, '~') > 0) return "bare: " + line;
-        const bool isRow = line.ends_with(" \\\\");
-        if (isRow && countBare(line, '&') + 1 != static_cast<int>(columns)) return "cells: " + line;
-        if (!isRow && countBare(line, '&') > 0) return "half a row: " + line;
-    }
+    const auto tables = longtablesOf(tex);
+    if (tables.empty()) return "no longtable";
+    for (const auto& lines : tables)
+        if (auto fault = rowFault(lines); !fault.empty()) return fault;
     return "";
 }
 
@@ -123,15 +154,55 @@ TEST(Table, MarkdownIsATable) {
 
 TEST(Table, LatexIsWellFormedAndEscaped) {
     const std::string tex = tableLatex(sample());
-    EXPECT_EQ(latexFault(tex, 5), "") << tex;
+    EXPECT_EQ(latexFault(tex), "") << tex;
+    ASSERT_EQ(longtablesOf(tex).size(), 1u);
+    EXPECT_EQ(columnsOf(longtablesOf(tex)[0][0]), 5);
     EXPECT_NE(tex.find("x\\_1 | <b> \"q\", 5 \\%"), std::string::npos) << tex;
     EXPECT_NE(tex.find("$1.25 \\times 10^{-7}$"), std::string::npos);
     EXPECT_NE(tex.find("4.2 $\\mu$s & 1/240 s & $0.3$ ($\\le$ $0.25$) fail"), std::string::npos) << tex;
     EXPECT_NE(tex.find("$\\theta$\\texttt{U+0308} $\\to$ $\\infty$ \\texttt{U+4E2D}"), std::string::npos)
         << tex;
     EXPECT_NE(tex.find("\\caption{Caption with 50 \\% \\& a\\_b}\\label{tab:a-b}"), std::string::npos);
-    EXPECT_NE(latexFault(tex.substr(0, tex.size() - 5), 5), "") << "the check finds faults";
-    EXPECT_NE(latexFault(tex, 4), "");
+    EXPECT_NE(latexFault(tex.substr(0, tex.size() - 5)), "") << "the check finds faults";
+    std::string cellMore = tex;
+    EXPECT_NE(latexFault(cellMore.replace(cellMore.find(" & "), 3, " & & ")), "");
+}
+
+/// Sixteen engines do not fit beside each other: each part names its rows again.
+TEST(Table, LatexOfAWideTableHasParts) {
+    Table table{"wide", "Caption", {{"dt", ColumnKind::TimeStep, "s"}, {"metric"}, {"unit"}}, {}};
+    std::vector<TableCell> row{1.0 / 60.0, "normal_error_median", "rad"};
+    for (int i = 0; i < 16; ++i) {
+        table.columns.push_back({"engine" + std::to_string(i) + " matched", ColumnKind::Judged});
+        row.emplace_back(1.25e-7 * (i + 1));
+    }
+    table.rows = {row};
+    const std::string tex = tableLatex(table);
+    EXPECT_EQ(latexFault(tex), "") << tex;
+    const auto parts = longtablesOf(tex);
+    ASSERT_GT(parts.size(), 2u);
+    int engines = 0;
+    for (const auto& part : parts) {
+        EXPECT_NE(part[3].find("metric"), std::string::npos) << part[3];
+        EXPECT_LE(columnsOf(part[0]), 9);
+        engines += columnsOf(part[0]) - 3;
+    }
+    EXPECT_EQ(engines, 16);
+    for (int i = 0; i < 16; ++i)
+        EXPECT_NE(tex.find("{engine" + std::to_string(i) + "\\\\{}matched}"), std::string::npos) << i;
+    EXPECT_NE(tex.find("\\caption{Caption (2 of " + std::to_string(parts.size()) + ")}\\label{tab:wide-2}"),
+              std::string::npos);
+}
+
+/// Long texts are wrapped, and names may be broken at what joins their words.
+TEST(Table, LatexOfLongTextsWrapsThem) {
+    const std::string words = "the margin of the shape is not part of its size, and is taken off before";
+    Table table{"texts", "Caption", {{"engine"}, {"reason"}, {"scenarios", ColumnKind::Number}}, {}};
+    table.rows = {{"bullet", words + " " + words + " a_b", std::int64_t{12}}};
+    const std::string tex = tableLatex(table);
+    EXPECT_EQ(latexFault(tex), "") << tex;
+    EXPECT_NE(tex.find("\\begin{longtable}{l>{\\raggedright\\arraybackslash}p{0."), std::string::npos) << tex;
+    EXPECT_NE(tex.find("a\\_\\allowbreak{}b"), std::string::npos);
 }
 
 TEST(Tables, AreWellFormedInEveryFormat) {
@@ -148,7 +219,7 @@ TEST(Tables, AreWellFormedInEveryFormat) {
         const auto csv = parseCsv(tableCsv(table));
         ASSERT_EQ(csv.size(), table.rows.size() + 1) << table.name;
         for (const auto& row : csv) EXPECT_EQ(row.size(), csvColumns) << table.name;
-        EXPECT_EQ(latexFault(tableLatex(table), table.columns.size()), "") << table.name;
+        EXPECT_EQ(latexFault(tableLatex(table)), "") << table.name;
         const auto markdown = linesOf(tableMarkdown(table));
         ASSERT_EQ(markdown.size(), table.rows.size() + 4) << table.name;
         EXPECT_EQ(tableMarkdown(table).find("<img"), std::string::npos);
@@ -196,13 +267,13 @@ TEST(Tables, SayWhatTheRunSays) {
     }
 }
 
-/// If there is a pdflatex, it compiles the tables.
+/// If there is a pdflatex, it compiles the tables, and none is wider than the text.
 TEST(Tables, CompileWhereThereIsAPdflatex) {
     if (std::system("command -v pdflatex > /dev/null 2>&1") != 0) GTEST_SKIP() << "no pdflatex here";
     const auto run = synthetic::makeRun(26);
     std::string document =
-        "\\documentclass{article}\\usepackage[T1]{fontenc}\\usepackage{booktabs,longtable}\n"
-        "\\begin{document}\\tiny\n" +
+        "\\documentclass{article}\\usepackage[T1]{fontenc}\\usepackage{array,booktabs,longtable}\n"
+        "\\begin{document}\n" +
         tableLatex(sample());
     for (const auto& table : allTables(ViewModel(run)))
         if (table.rows.size() < 200) document += tableLatex(table);
@@ -214,6 +285,9 @@ TEST(Tables, CompileWhereThereIsAPdflatex) {
                               .c_str()),
               0)
         << folder;
+    std::ifstream log(folder / "tables.log");
+    for (std::string line; std::getline(log, line);)
+        EXPECT_EQ(line.find("Overfull \\hbox ("), std::string::npos) << folder << ": " << line;
 }
 
 }  // namespace
