@@ -82,31 +82,41 @@ long contactOf(const std::string& worst) {
     return at == std::string::npos ? -1 : std::strtol(worst.c_str() + at + kContact.size(), nullptr, 10);
 }
 
-void addAudit(const TrajectoryFile& file, const results::CaseRow& row, std::vector<ReplayEvent>& out) {
-    for (const auto& audit : row.audit) {
-        const auto at = audit.worst.find(" at t=");
-        const bool wrong =
-            audit.missed + audit.spurious > 0 || audit.normalErrorMax.value_or(0.0) >= kAngleWorthAMark;
-        if (at == std::string::npos || !wrong) continue;
-        ReplayEvent event = eventAt(file, frameOf(file, audit.worst, at + 6), "audit");
-        event.what = audit.auditor;
-        event.subject = audit.worst.substr(0, at);
-        event.value = audit.normalErrorMax.value_or(kNone);
-        event.unit = "rad";
-        event.text = audit.worst;
-        event.contact = contactOf(audit.worst);
-        out.push_back(std::move(event));
-    }
+/// Worst place of an auditor in a store of an older version, which kept no findings.
+void addWorst(const TrajectoryFile& file, const results::AuditRow& audit, std::vector<ReplayEvent>& out) {
+    const auto at = audit.worst.find(" at t=");
+    const bool wrong =
+        audit.missed + audit.spurious > 0 || audit.normalErrorMax.value_or(0.0) >= kAngleWorthAMark;
+    if (at == std::string::npos || !wrong) return;
+    ReplayEvent event = eventAt(file, frameOf(file, audit.worst, at + 6), "audit");
+    event.what = audit.auditor;
+    event.subject = audit.worst.substr(0, at);
+    event.value = audit.normalErrorMax.value_or(kNone);
+    event.unit = "rad";
+    event.text = audit.worst;
+    event.contact = contactOf(audit.worst);
+    out.push_back(std::move(event));
 }
 
-/// The worst depth, missed and false overlap of the contacts that the run acted upon: their frames are kept.
-/// The worst normal has an event already.
-void addFindings(const TrajectoryFile& file, const results::CaseRow& row, std::vector<ReplayEvent>& out) {
+/// True for findings that are worth a mark: wrong normals, missed and false overlaps of every auditor, and the
+/// worst depth of the contacts that the run acted upon.
+bool isMarked(const Json& found, const results::AuditRow& audit) {
+    const auto what = found.at("what").get<std::string>();
+    if (!found.at("error").is_number()) return false;
+    if (what == "normal") return found.at("error").get<double>() >= kAngleWorthAMark;
+    if (what == "point_normal") return false;  // the metric normal_error has its own mark
+    return what != "depth" || audit.auditor == "in_run";
+}
+
+/// The worst of each kind by each auditor, at its own frame.
+void addAudit(const TrajectoryFile& file, const results::CaseRow& row, std::vector<ReplayEvent>& out) {
     for (const auto& audit : row.audit) {
-        if (audit.auditor != "in_run" || audit.findings.empty()) continue;
+        if (audit.findings.empty()) {
+            addWorst(file, audit, out);
+            continue;
+        }
         for (const auto& found : Json::parse(audit.findings)) {
-            const auto what = found.at("what").get<std::string>();
-            if (what == "normal" || !found.at("error").is_number()) continue;
+            if (!isMarked(found, audit)) continue;
             const auto step = found.at("step").get<std::size_t>();
             const std::size_t frame = step / static_cast<std::size_t>(std::max(1, file.stride));
             ReplayEvent event = eventAt(file, std::min(frame, file.times.size() - 1), "audit");
@@ -114,8 +124,8 @@ void addFindings(const TrajectoryFile& file, const results::CaseRow& row, std::v
             event.subject =
                 found.at("names").at(0).get<std::string>() + "|" + found.at("names").at(1).get<std::string>();
             event.value = found.at("error");
-            event.unit = "m";
-            event.text = what;
+            event.unit = found.at("unit");
+            event.text = found.at("what");
             event.contact = found.at("contact");
             out.push_back(std::move(event));
         }
@@ -221,7 +231,6 @@ std::vector<ReplayEvent> replayEvents(const TrajectoryFile& file, const results:
     if (file.times.empty()) return out;
     addLargest(file, row, out);
     addAudit(file, row, out);
-    addFindings(file, row, out);
     addDivergence(file, kDivergenceFraction * sceneLength(file), out);
     addNonFinite(file, out);
     addContactEvents(file, out);

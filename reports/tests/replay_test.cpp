@@ -245,6 +245,39 @@ TEST_F(ReplayFiles, TheFrameOfAnAuditIsThatOfItsStep) {
     EXPECT_TRUE(has(bundle.steps(c), 157));
 }
 
+/// The place of a run's worst is that of a missed contact here; the wrong normal is marked at its own frame.
+TEST_F(ReplayFiles, EveryFindingIsMarkedAtItsOwnFrame) {
+    results::AuditRow own;
+    own.auditor = "in_run";
+    own.missed = 1;
+    own.normalErrorMax = 0.25;
+    own.worst = "floor|b1 at t=1.5, step 150 (missed)";
+    own.findings =
+        R"([{"what":"missed","error":0.002,"unit":"m","step":150,"names":["floor","b1"],"contact":-1},
+            {"what":"normal","error":0.25,"unit":"rad","step":222,"names":["b0","b1"],"contact":2},
+            {"what":"depth","error":0.003,"unit":"m","step":33,"names":["floor","b2"],"contact":0}])";
+    results::AuditRow query = own;
+    query.auditor = "ode";
+    query.findings =
+        R"([{"what":"normal","error":1e-9,"unit":"rad","step":10,"names":["b0","b1"],"contact":-1},
+            {"what":"depth","error":0.003,"unit":"m","step":33,"names":["floor","b2"],"contact":-1}])";
+    run_.cases[0].audit = {own, query};
+    Bundle bundle = write();
+    const auto c = caseOf(bundle, run_.cases[0].spec);
+    std::map<std::string, nlohmann::json> marks;
+    for (const auto& event : bundle.meta["cases"][c]["events"])
+        if (event["kind"] == "audit") marks[event["text"]] = event;
+    ASSERT_EQ(marks.size(), 3u) << "rounding and the depths of queries get no mark";
+    const auto& normal = marks["normal"];
+    EXPECT_DOUBLE_EQ(normal["time"], 2.22);
+    EXPECT_DOUBLE_EQ(normal["value"], 0.25);
+    EXPECT_EQ(normal["unit"], "rad");
+    EXPECT_EQ(normal["subject"], "b0|b1");
+    EXPECT_EQ(normal["contact"], 2);
+    EXPECT_DOUBLE_EQ(marks["missed"]["time"], 1.5);
+    EXPECT_DOUBLE_EQ(marks["depth"]["time"], 0.33);
+}
+
 TEST_F(ReplayFiles, DivergenceFromTheReferenceIsTheFirstFrameBeyondTheThreshold) {
     auto& file = *files_[0];
     file.reference = {file.bodies[1]};

@@ -6,6 +6,7 @@
 
 #include "adapters/interface/checked_world.hpp"
 #include "adapters/interface/input_check.hpp"
+#include "validation/metrics/closed_forms.hpp"
 #include "validation/metrics/metric_parts.hpp"
 #include "validation/oracle/oracle.hpp"
 #include "validation/runner/audit.hpp"
@@ -80,6 +81,20 @@ class Comparison {
             addSpurious(q, answer, places);
         }
         if (overlaps && answer.overlap && !answer.contacts.empty()) compareContacts(q, answer, places);
+    }
+
+    /// The normals of all points of a contact that a run acted upon, where the metric normal_error judges them, too: it
+    /// knows closed forms alone. The other kinds look at the deepest point.
+    void addPoints(const AuditQuery& q) {
+        const bool isJudged =
+            closedFormPair(geometryOf(scenario_, q.bodyA, q.shapeA), q.poseA,
+                           geometryOf(scenario_, q.bodyB, q.shapeB), q.poseB, scenario_.dimension)
+                .has_value();
+        if (!isJudged || !q.decided || q.normals.empty()) return;
+        for (std::size_t i = 0; i < q.own.size(); ++i) {
+            const double error = nearestAngle(q.own[i].normal, q.normals);
+            if (error > kNoticeableAngle) findings_.add("point_normal", error, q, &q.own[i], q.ownPlaces[i]);
+        }
     }
 
     /// A contact that claims an overlap of shapes that no query was needed for.
@@ -214,6 +229,7 @@ results::AuditRow inRunRow(const Scenario& scenario, const AuditCase& audited) {
             return overlaps || c.depth > kTouchTolerance;
         });
         comparison.add(q, answer, q.ownPlaces);
+        comparison.addPoints(q);
     }
     for (const ContactPoint& contact : audited.stray) comparison.addStray(contact);
     comparison.finish();

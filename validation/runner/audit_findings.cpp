@@ -63,11 +63,14 @@ void AuditFindings::add(const std::string& what, double error, const AuditQuery&
 
 std::string AuditFindings::text(const scenario::Scenario& scenario) const {
     json list = json::array();
+    const auto normal = worst_.find("normal");
     for (const auto& [what, found] : worst_) {
+        const bool isDeepest = normal != worst_.end() && !(found.error > normal->second.error);
+        if (what == "point_normal" && isDeepest) continue;  // the deepest point is the worst one
         const AuditQuery& q = found.query;
         list.push_back({{"what", what},
                         {"error", numberToJson(found.error)},
-                        {"unit", what == "normal" ? "rad" : "m"},
+                        {"unit", what.ends_with("normal") ? "rad" : "m"},
                         {"time", q.time},
                         {"step", q.step},
                         {"bodies", {q.bodyA, q.bodyB}},

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "scenarios/model/surfaces.hpp"
+#include "validation/metrics/closed_forms.hpp"
 #include "validation/oracle/oracle.hpp"
 #include "validation/results/trajectory_file.hpp"
 #include "validation/runner/audit.hpp"
@@ -19,6 +21,7 @@ using scenario::Vec3;
 
 constexpr std::size_t kFrames = 20;
 constexpr std::size_t kMostQueries = 400;  ///< most queries per case
+constexpr double kSmallAngle = 1e-6;       ///< [rad] smaller errors of normals are rounding
 constexpr double kNearby = 0.02;           ///< bounding spheres closer than this are queried [m]
 
 /// Smallest sphere we know around a shape, shape frame; infinite radius for a half-space.
@@ -73,6 +76,11 @@ const scenario::Shape& shapeOf(const Scenario& s, int body, int shape) {
     return s.bodies[body].shapes[shape];
 }
 
+bool hasShape(const Scenario& s, int body, int shape) {
+    return body >= 0 && body < static_cast<int>(s.bodies.size()) && shape >= 0 &&
+           shape < static_cast<int>(s.bodies[body].shapes.size());
+}
+
 ShapeAt place(const Scenario& s, int body, int shape, const Pose& bodyPose) {
     const scenario::Shape& local = shapeOf(s, body, shape);
     const Pose pose = bodyPose * local.pose;
@@ -110,9 +118,45 @@ std::size_t frameAt(const results::TrajectoryFile& file, double time) {
     return std::lower_bound(file.times.begin(), file.times.end(), time) - file.times.begin();
 }
 
-/// Half of the frames evenly over the run, half evenly over those at which a step with contacts began.
-std::vector<std::size_t> sampledFrames(const results::TrajectoryFile& file) {
+Pose bodyPose(const results::TrajectoryFile& file, std::size_t frame, int body) {
+    const auto& channels = file.bodies[body];
+    const double* p = channels.position.values.data() + 3 * frame;
+    const double* q = channels.orientation.values.data() + 4 * frame;
+    return {{p[0], p[1], p[2]}, scenario::normalized({q[0], q[1], q[2], q[3]})};
+}
+
+/// Frame of the contact point that the run acted upon with the most wrong normal, as far as closed forms say (that of the
+/// metric normal_error); none where they know of no wrong one.
+std::optional<std::size_t> worstNormalFrame(const Scenario& s, const results::TrajectoryFile& file) {
+    if (!file.contactInstantsKnown) return std::nullopt;
+    double worst = kSmallAngle;
+    std::optional<std::size_t> found;
+    for (const auto& contact : file.contacts) {
+        const std::size_t frame = frameAt(file, contact.time);
+        if (frame >= file.times.size() || !hasShape(s, contact.bodyA, contact.shapeA) ||
+            !hasShape(s, contact.bodyB, contact.shapeB))
+            continue;
+        const scenario::Shape &a = shapeOf(s, contact.bodyA, contact.shapeA),
+                              &b = shapeOf(s, contact.bodyB, contact.shapeB);
+        const auto exact =
+            closedFormPair(a.geometry, bodyPose(file, frame, contact.bodyA) * a.pose, b.geometry,
+                           bodyPose(file, frame, contact.bodyB) * b.pose, s.dimension);
+        if (!exact) continue;
+        const Vec3 said{contact.normal[0], contact.normal[1], contact.normal[2]};
+        const double angle = std::atan2(norm(cross(said, exact->normal)), dot(said, exact->normal));
+        if (!(angle > worst)) continue;
+        worst = angle;
+        found = frame;
+    }
+    return found;
+}
+
+/// Half of the frames evenly over the run, half evenly over those at which a step with contacts began; and the one with
+/// the worst normal.
+std::vector<std::size_t> sampledFrames(const results::TrajectoryFile& file,
+                                       std::optional<std::size_t> worst) {
     std::set<std::size_t> chosen;
+    if (worst) chosen.insert(*worst);
     const auto spread = [&](const std::vector<std::size_t>& from, std::size_t count) {
         if (from.empty()) return;
         for (std::size_t k = 0; k < count; ++k)
@@ -129,13 +173,6 @@ std::vector<std::size_t> sampledFrames(const results::TrajectoryFile& file) {
     spread(all, kFrames / 2);
     spread(touching, kFrames / 2);
     return {chosen.begin(), chosen.end()};
-}
-
-Pose bodyPose(const results::TrajectoryFile& file, std::size_t frame, int body) {
-    const auto& channels = file.bodies[body];
-    const double* p = channels.position.values.data() + 3 * frame;
-    const double* q = channels.orientation.values.data() + 4 * frame;
-    return {{p[0], p[1], p[2]}, scenario::normalized({q[0], q[1], q[2], q[3]})};
 }
 
 std::vector<AuditQuery> frameQueries(const Scenario& s, const std::vector<Candidate>& pairs,
@@ -195,11 +232,15 @@ void addOwnContacts(const results::TrajectoryFile& file, std::size_t frame, std:
     }
 }
 
-void thinOut(std::vector<AuditQuery>& queries) {
+/// Leaves kMostQueries, evenly spread, and those about the contacts that the run acted upon in one step.
+void thinOut(std::vector<AuditQuery>& queries, std::optional<std::int64_t> step) {
     if (queries.size() <= kMostQueries) return;
+    std::set<std::size_t> places;
+    for (std::size_t k = 0; k < kMostQueries; ++k) places.insert(k * queries.size() / kMostQueries);
+    for (std::size_t k = 0; k < queries.size(); ++k)
+        if (step && queries[k].step == *step && !queries[k].own.empty()) places.insert(k);
     std::vector<AuditQuery> kept;
-    for (std::size_t k = 0; k < kMostQueries; ++k)
-        kept.push_back(std::move(queries[k * queries.size() / kMostQueries]));
+    for (const std::size_t k : places) kept.push_back(std::move(queries[k]));
     queries = std::move(kept);
 }
 
@@ -221,13 +262,15 @@ AuditCase findQueries(const Scenario& s, const std::string& caseId, const std::f
     const std::vector<Candidate> pairs = candidates(s);
     AuditCase found;
     found.id = caseId;
-    for (const std::size_t frame : sampledFrames(file)) {
+    const auto worst = worstNormalFrame(s, file);
+    for (const std::size_t frame : sampledFrames(file, worst)) {
         auto queries = frameQueries(s, pairs, file, frame);
         addOwnContacts(file, frame, queries, found.stray);
         found.queries.insert(found.queries.end(), queries.begin(), queries.end());
         ++found.frames;
     }
-    thinOut(found.queries);
+    thinOut(found.queries,
+            worst ? std::optional(static_cast<std::int64_t>(*worst) * file.stride) : std::nullopt);
     for (AuditQuery& q : found.queries) {
         const auto answer = exactContact(shapeOf(s, q.bodyA, q.shapeA).geometry, q.poseA,
                                          shapeOf(s, q.bodyB, q.shapeB).geometry, q.poseB, s.dimension);

@@ -11,6 +11,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 
 #include "validation/results/trajectory_file.hpp"
 #include "validation/runner/audit.hpp"
@@ -115,6 +116,43 @@ TEST_F(InRun, FlippedNormals) {
     const auto row = audited();
     EXPECT_NEAR(row.normalErrorMedian.value(), std::numbers::pi, 1e-9);
     EXPECT_LT(row.depthErrorMax.value(), 1e-12);
+}
+
+/// One contact of one step, between the frames that are sampled.
+TEST_F(InRun, AWrongNormalOfASingleStepIsFound) {
+    const auto path = scratch_.path() / "run.h5";
+    writeTrajectory(path, file_);
+    std::set<double> sampled;
+    for (const auto& q : findQueries(scenario_, "run", path).queries) sampled.insert(q.time);
+    const auto between = std::find_if(file_.contacts.begin(), file_.contacts.end(), [&](const auto& c) {
+        return !sampled.contains(c.time) && c.depth > 1e-3;
+    });
+    ASSERT_NE(between, file_.contacts.end());
+    const double angle = 0.3;  // [rad]
+    turn(between->normal, angle);
+    const auto row = audited();
+    EXPECT_NEAR(row.normalErrorMax.value(), angle, 1e-9);
+    EXPECT_LT(row.normalErrorMedian.value(), 1e-9);
+}
+
+/// The deepest point of a pair has its normal, another one an old one.
+TEST_F(InRun, TheWorstPointIsAFindingOfItsOwn) {
+    const auto contact = std::find_if(file_.contacts.begin(), file_.contacts.end(),
+                                      [](const auto& c) { return c.depth > 1e-2; });
+    ASSERT_NE(contact, file_.contacts.end());
+    ContactSample old = *contact;
+    old.depth = -1e-3;
+    turn(old.normal, 0.5);
+    file_.contacts.insert(contact + 1, old);
+    const auto row = audited();
+    EXPECT_LT(row.normalErrorMax.value(), 1e-9);
+    const auto findings = nlohmann::json::parse(row.findings);
+    ASSERT_EQ(findings.size(), 1u) << findings;
+    EXPECT_EQ(findings[0]["what"], "point_normal");
+    EXPECT_EQ(findings[0]["unit"], "rad");
+    EXPECT_NEAR(findings[0]["error"], 0.5, 1e-9);
+    EXPECT_NEAR(findings[0]["said"]["depth"], -1e-3, 1e-12);
+    EXPECT_EQ(findings[0]["step"], std::lround(old.time / kStep));
 }
 
 TEST_F(InRun, TheCurveOfNormalErrorsShowsWhenTheyWereWrong) {

@@ -7,7 +7,7 @@
 export type Point = [number, number, number];
 
 export interface ContactFinding {
-  what: 'normal' | 'depth' | 'missed' | 'spurious';
+  what: 'normal' | 'point_normal' | 'depth' | 'missed' | 'spurious'; // point_normal: of any point, not the deepest one
   error: number; // in `unit`
   unit: 'rad' | 'm';
   time: number; // [s]

@@ -49,6 +49,7 @@ function contactRows(scene: Scene, { frame, contact }: Inspected): HTMLElement[]
 
 const findingTitles: Record<ContactFinding['what'], string> = {
   normal: 'Wrong normal',
+  point_normal: 'Wrong normal',
   depth: 'Wrong depth',
   missed: 'Missed contact',
   spurious: 'False contact',

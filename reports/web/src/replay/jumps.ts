@@ -77,12 +77,15 @@ const kindWords: Record<ReplayEvent['kind'], string> = {
   nonfinite: 'no longer finite',
 };
 
+const findingWords = new Set(['normal', 'depth', 'missed', 'spurious']);
+
 /** One line: "largest position_max, ball: 0.12 m". */
 export function describe(event: ReplayEvent): string {
   const digits = (x: number) => String(Number(x.toPrecision(4)));
   let text = kindWords[event.kind];
-  if (event.what === 'in_run')
-    text = event.unit === 'm' ? `worst ${event.text} of its own run` : 'worst contact geometry of its own run';
+  if (event.kind === 'audit' && findingWords.has(event.text ?? ''))
+    text = `worst ${event.text} ${event.what === 'in_run' ? 'of its own run' : `by ${event.what}`}`;
+  else if (event.what === 'in_run') text = 'worst contact geometry of its own run';
   else if (event.what) text += ` ${event.what}`;
   if (event.subject) text += `, ${event.subject.replace('|', ' and ')}`;
   if (event.value !== undefined)

@@ -269,6 +269,9 @@ test('jumps', () => {
   assert.equal(describe(b.events[0] as ReplayEvent), 'leaves the reference, ball: 0.02 m (more than 0.01 m)');
   const inRun: ReplayEvent = { time: 1, kind: 'audit', what: 'in_run', subject: 'ball|box', value: 0.5, unit: 'rad' };
   assert.equal(describe(inRun), 'worst contact geometry of its own run, ball and box: 28.65°');
+  const normal = { ...inRun, text: 'normal' };
+  assert.equal(describe(normal), 'worst normal of its own run, ball and box: 28.65°');
+  assert.equal(describe({ ...normal, what: 'fcl' }), 'worst normal by fcl, ball and box: 28.65°');
   assert.equal(neighbourTime([a, b], 0, true), 0.5);
   assert.equal(neighbourTime([a, b], 1, false), 0.5);
   assert.equal(neighbourTime([a], 3, true), null);
