@@ -172,11 +172,18 @@ class ReportFolder {
     void writeData(const std::string& name, const std::string& content) {
         write(fs::path("data") / (name + ".js"), dataFile(name, content));
     }
-    void writePlot(const NamedPlot& plot) {
-        write(fs::path("plots") / (plot.name + ".svg"), plot.svg);
-        write(fs::path("plots") / (plot.name + ".csv"), plot.csv);
+    /// The names of the two files.
+    std::vector<std::string> writePlot(const NamedPlot& plot) {
+        const std::string name = (fs::path("plots") / plot.name).string();
+        write(name + ".svg", plot.svg);
+        write(name + ".csv", plot.csv);
+        return {name + ".svg", name + ".csv"};
     }
-    /// `csvAlone`: neither Markdown nor LaTeX.
+    /// A large run has the tables of its scenarios in CSV alone, neither in Markdown nor in LaTeX.
+    bool hasTablesInCsvAlone(const results::Run& run) const { return run.cases.size() > limits_.cases; }
+    static std::vector<const char*> tableEndings(bool csvAlone) {
+        return csvAlone ? std::vector{".csv"} : std::vector{".csv", ".md", ".tex"};
+    }
     void writeTable(const Table& table, bool csvAlone) {
         const std::string name = (fs::path("tables") / table.name).string();
         const bool isLarge = table.rows.size() > limits_.tableRows;
@@ -206,8 +213,11 @@ class ReportFolder {
 ReportFolder writeScenario(const ViewModel& view, std::size_t scenario, TrajectoriesOfScenario& trajectories,
                            ReportFolder folder) {
     const TrajectoryLoader load = [&](const results::CaseRow& row) { return trajectories.load(row, false); };
-    folder.writeData("scenario-" + std::to_string(scenario), scenarioJson(view, scenario, load));
-    if (const auto plot = scenarioPlot(view, scenario, load)) folder.writePlot(*plot);
+    std::vector<std::string> files;
+    if (const auto plot = scenarioPlot(view, scenario, load)) files = folder.writePlot(*plot);
+    for (const char* ending : folder.tableEndings(folder.hasTablesInCsvAlone(view.run())))
+        files.push_back("tables/" + scenarioTableName(view.run().scenarios[scenario]) + ending);
+    folder.writeData("scenario-" + std::to_string(scenario), scenarioJson(view, scenario, load, files));
     return folder;
 }
 
@@ -267,7 +277,7 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory, std::vector<std
     fs::create_directories(runDirectory / "tables" / "scenarios");
     for (const auto& entry : tableEntries())
         for (const auto& table : entry.make(view))
-            folder.writeTable(table, shown.cases.size() > limits.cases && table.ofScenario);
+            folder.writeTable(table, table.ofScenario && folder.hasTablesInCsvAlone(shown));
     if (problems != nullptr) problems->assign(trajectories.problems().begin(), trajectories.problems().end());
     return folder.written;
 }

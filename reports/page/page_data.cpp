@@ -550,7 +550,8 @@ std::string listsJson(const ViewModel& view) {
     return text(lists(view));
 }
 
-std::string scenarioJson(const ViewModel& view, std::size_t index, const TrajectoryLoader& load) {
+std::string scenarioJson(const ViewModel& view, std::size_t index, const TrajectoryLoader& load,
+                         const std::vector<std::string>& files) {
     const auto& scenario = view.run().scenarios[index];
     const std::size_t points = curvePoints(view.run().cases.size());
     Json cases = Json::array();
@@ -592,6 +593,7 @@ std::string scenarioJson(const ViewModel& view, std::size_t index, const Traject
         }
     return text({{"name", scenario.name},
                  {"text", scenario.text},
+                 {"files", files},
                  {"cases", cases},
                  {"orders", ordersJson(view.run(), scenario.name)},
                  {"fairness", fairnessJson(view.run(), scenario.name)}});

@@ -26,6 +26,8 @@ std::vector<std::size_t> caseFiles(const ViewModel& view);
 std::string casesJson(const ViewModel& view, std::size_t file);
 /// Content of data/lists.js of CasesOfPage::Beside: the audit and the parity ledger over all scenarios.
 std::string listsJson(const ViewModel& view);
-std::string scenarioJson(const ViewModel& view, std::size_t scenario, const TrajectoryLoader& load);
+/// `files`: names of the files of its table and its plot, from the folder of the page.
+std::string scenarioJson(const ViewModel& view, std::size_t scenario, const TrajectoryLoader& load,
+                         const std::vector<std::string>& files = {});
 
 }  // namespace rigor::report

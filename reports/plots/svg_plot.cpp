@@ -184,23 +184,34 @@ std::string legend(const Plot& plot) {
     return out;
 }
 
-/// The series of a file that a plot shows; null when it has none.
-const results::SeriesChannel* findSeries(const results::TrajectoryFile& file, const std::string& name) {
+/// The series of a file that a plot shows: of this name, where one is given, and that of the whole scene before that of
+/// a body; of this subject, where one is given. Null when there is none.
+const results::SeriesChannel* findSeries(const results::TrajectoryFile& file, const std::string& name,
+                                         const std::optional<std::string>& subject) {
     const results::SeriesChannel* found = nullptr;
-    for (const auto& s : file.series)
-        if ((s.name == name || name.empty()) && s.channel.values.size() == file.times.size() &&
-            (!found || s.subject.empty()))
-            if (found = &s; s.subject.empty()) return found;
+    for (const auto& s : file.series) {
+        const bool isWanted = (s.name == name || name.empty()) && (!subject || s.subject == *subject);
+        if (!isWanted || s.channel.values.size() != file.times.size()) continue;
+        if (s.subject.empty() || subject) return &s;
+        if (!found) found = &s;
+    }
     return found;
+}
+
+/// "position error of block".
+std::string seriesTitle(const std::string& name, const std::string& subject) {
+    std::string text = name;
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return subject.empty() ? text : text + " of " + subject;
 }
 
 }  // namespace
 
 std::string colourOf(const ViewModel& view, const SpecColumn& column) {
-    const auto& engines = view.run().engines;
-    std::size_t i = 0;
-    while (i < engines.size() && engines[i].name != column.engine) ++i;
-    return paletteColour(i);
+    std::vector<std::string> engines;  // engines that took part, in the order of the columns
+    for (const SpecColumn& c : view.columns())
+        if (std::find(engines.begin(), engines.end(), c.engine) == engines.end()) engines.push_back(c.engine);
+    return paletteColour(std::find(engines.begin(), engines.end(), column.engine) - engines.begin());
 }
 
 const char* paletteColour(std::size_t index) {
@@ -250,6 +261,7 @@ std::optional<NamedPlot> scenarioPlot(const ViewModel& view, std::size_t index,
                                       const TrajectoryLoader& load) {
     const auto& scenario = view.run().scenarios[index];
     std::string name = "position_error";
+    std::optional<std::string> subject;  // subject of the first line, and of all
     Plot plot;
     const std::size_t points = curvePoints(view.run().cases.size(), kPlotPoints, kFewestPlotPoints);
     for (std::size_t c = 0; c < view.columns().size(); ++c) {
@@ -257,9 +269,10 @@ std::optional<NamedPlot> scenarioPlot(const ViewModel& view, std::size_t index,
         if (cases.empty()) continue;
         const auto file = load(*cases.front());
         if (!file || file->times.empty()) continue;
-        const auto* series = findSeries(*file, name);
-        if (!series && plot.lines.empty() && (series = findSeries(*file, ""))) name = series->name;
+        const auto* series = findSeries(*file, name, subject);
+        if (!series && plot.lines.empty() && (series = findSeries(*file, "", subject))) name = series->name;
         if (!series) continue;
+        subject = series->subject;
         const auto& column = view.columns()[c];
         PlotLine line{column.label, colourOf(view, column), column.dash, {}, {}};
         for (const std::size_t i : outlineIndices(series->channel.values, points)) {
@@ -267,7 +280,8 @@ std::optional<NamedPlot> scenarioPlot(const ViewModel& view, std::size_t index,
             line.y.push_back(series->channel.values[i]);
         }
         plot.lines.push_back(line);
-        plot.yLabel = name + (series->channel.unit.empty() ? "" : " [" + series->channel.unit + "]");
+        plot.yLabel = seriesTitle(name, *subject) +
+                      (series->channel.unit.empty() ? "" : " [" + series->channel.unit + "]");
     }
     if (plot.lines.empty()) return std::nullopt;
     plot.title = scenario.title.empty() ? scenario.name : scenario.title;

@@ -7,7 +7,7 @@
 import { csvText } from '../common/download.ts';
 import { cssValue } from '../common/elements.ts';
 import type { FrameSource } from './frames.ts';
-import type { NotesOf } from './notes_layer.ts';
+import { type NotesOf, noteFont, noteHeight, notePadding, placedNotes } from './notes_layout.ts';
 import type { Scene } from './scene.ts';
 import type { ReplayView } from './view.ts';
 import { type EncodedFrame, webmOf } from './webm.ts';
@@ -41,11 +41,8 @@ export function composed(view: ReplayView, notes: readonly NotesOf[], into: HTML
     write(sources.map((s) => s.label).join(', '), rect.x + 10, rect.y + 20, '600 14px system-ui, sans-serif');
     if (now) write(`t = ${now.frame.time.toFixed(4)} s`, rect.x + 10, rect.y + 37, '11px system-ui, sans-serif');
   }
-  for (const { source, notes: list } of notes)
-    for (const { at, text } of list) {
-      const place = view.project(source, at);
-      if (place) write(text, place[0] + 6, place[1] + 4, '600 12px system-ui, sans-serif');
-    }
+  for (const { text, left, top } of placedNotes(view, notes))
+    write(text, left + notePadding, top + 0.75 * noteHeight, noteFont);
   return into;
 }
 

@@ -38,6 +38,8 @@ export function roundOf(bodies: number, software = false): number {
   return bodies > 800 ? 14 : bodies > 150 ? 24 : 40;
 }
 
+const flatRound = 40; // segments of a circle in 2D, where it is an outline and cheap, and contacts are looked at from near
+
 function lines(points: number[]): BufferGeometry {
   return new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
 }
@@ -213,7 +215,7 @@ export class TemplateCache {
     switch (geometry.kind) {
       case 'sphere': {
         const r = geometry.radius;
-        return this.#sized(flat ? 'disc' : 'sphere', () => (flat ? disc : sphere)(this.#round), [r, r, r]);
+        return this.#sized(flat ? 'disc' : 'sphere', () => (flat ? disc(flatRound) : sphere(this.#round)), [r, r, r]);
       }
       case 'box':
         if (flat) return this.#sized('rectangle', rectangle, [geometry.half[0], geometry.half[1], 1]);
@@ -232,7 +234,11 @@ export class TemplateCache {
       case 'capsule': {
         const r = geometry.radius;
         const ratio = geometry.halfLength / r; // the ends stay round: each ratio has its own
-        return this.#sized(`capsule ${ratio}`, () => (flat ? stadium : capsule)(this.#round, ratio), [r, r, r]);
+        return this.#sized(`capsule ${ratio}`, () => (flat ? stadium(flatRound, ratio) : capsule(this.#round, ratio)), [
+          r,
+          r,
+          r,
+        ]);
       }
       case 'hull':
         return this.#own(geometry, () => (flat ? polygon(geometry.vertices) : solid(geometry.vertices)));

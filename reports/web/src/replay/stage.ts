@@ -30,7 +30,8 @@ import {
 import { bindKeys } from './keys.ts';
 import { decodeLink, encodeLink, viewOfHash, withView } from './link.ts';
 import { Measure } from './measure.ts';
-import { NotesLayer, type NotesOf } from './notes_layer.ts';
+import { NotesLayer } from './notes_layer.ts';
+import type { NotesOf } from './notes_layout.ts';
 import { PanelLabels } from './panel_labels.ts';
 import { type Choosable, chosenNext, contactOf, type Pinned } from './pinned.ts';
 import { Player } from './player.ts';

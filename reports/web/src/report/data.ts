@@ -494,6 +494,7 @@ export interface ScenarioData {
   name: string;
   text: string; // the scenario file as run
   start?: { position: string; orientation: string } | null; // packed singles of all bodies at the start
+  files?: string[]; // files of tables and plots beside the page
   cases: Case[];
   orders: Order[];
   fairness: Fairness[];

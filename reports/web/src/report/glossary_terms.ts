@@ -11,6 +11,10 @@ export interface Term {
   formula?: string;
 }
 
+export const termPrefix = 'term-';
+/** Id of the entry of a term or metric in the glossary: its address is "#" and this. */
+export const termId = (name: string): string => `${termPrefix}${name.replaceAll(/[^\w]+/g, '-')}`;
+
 /** Words of headings and legends, in lower case where they are looked up. */
 export const terms: Term[] = [
   { name: 'Accuracy', meaning: 'How near a run is to the physics; says nothing on whether it changed.' },

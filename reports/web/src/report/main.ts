@@ -103,8 +103,10 @@ async function route(place: number | null = null): Promise<void> {
     if (node) page.append(node);
   }
   const at = place === null && anchor && `#${anchor}` !== path ? document.getElementById(anchor) : null;
-  if (at) at.scrollIntoView();
-  else scrollTo(0, stay);
+  if (at) {
+    at.scrollIntoView();
+    if (at.tabIndex === -1 && at.hasAttribute('tabindex')) at.focus({ preventScroll: true });
+  } else scrollTo(0, stay);
   found.shown?.();
   page.dataset.shown = String(mine);
 }
@@ -117,10 +119,18 @@ function markTab(path: string): void {
 
 function bars(): void {
   const links = tabs.map(({ id, title }) => el('a', { href: `#${id}` }, title));
+  const skip = (event: Event) => {
+    event.preventDefault(); // the part behind "#" is the address of a page
+    page.focus();
+    page.scrollIntoView();
+  };
+  page.tabIndex = -1;
+  const toContent = el('a', { class: 'skip', href: '#page', onclick: skip }, 'Skip to the content');
   const brand = el('a', { class: 'brand', href: home || '#' }, 'Rigor');
   const bar = el(
     'div',
     { class: 'bar' },
+    toContent,
     brand,
     el('nav', { 'aria-label': 'Sections' }, links),
     searchField(),

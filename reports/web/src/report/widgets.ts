@@ -3,9 +3,9 @@
 //
 // Elements of the sections: panels, chips, number cells, heads of tables with a column per engine.
 import { type Attributes, type Child, el } from '../common/elements.ts';
-import { duration, format, full, inShownUnit, type Maybe, shortCommand, timeStep } from '../common/format.ts';
+import { duration, format, full, inShownUnit, type Maybe, shortCommand, timeStep, words } from '../common/format.ts';
 import type { Column, Regression, Shown } from './data.ts';
-import { meaningOf } from './glossary_terms.ts';
+import { meaningOf, metricTerms, termId } from './glossary_terms.ts';
 import { dimensionNote, engineLink, subtitleOf, verdictText } from './run.ts';
 
 export const panel = (id: string, title: string | null, ...children: Child[]): HTMLElement =>
@@ -56,6 +56,12 @@ export const stepCell = (dt: Maybe): HTMLElement => el('td', { class: 'num' }, t
 export function term(text: string, name = text): Child {
   const meaning = meaningOf(name);
   return meaning === undefined ? text : el('abbr', { class: 'term', title: meaning }, text);
+}
+/** The name of a metric: its formula on hover, a link to its line in the glossary. */
+export function metricName(name: string): Child {
+  const text = words(name);
+  if (!metricTerms.has(name)) return text;
+  return el('a', { class: 'term', href: `#${termId(name)}`, title: meaningOf(name) }, text);
 }
 const explained = (child: Child): Child => (typeof child === 'string' ? term(child) : child);
 

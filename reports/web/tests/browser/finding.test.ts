@@ -5,7 +5,7 @@
 // stored finding, from near, one engine alone, nothing covered; the address restores it.
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
-import { query, reportOf, skip, smokeRun, watched } from '../browser.ts';
+import { makeRunOf, query, reportOf, skip, smokeRun, watched } from '../browser.ts';
 
 type Vec = [number, number, number];
 interface Stored {
@@ -123,6 +123,31 @@ describe('a finding of the audit is drawn', { skip }, () => {
     });
     await it.page.waitForFunction(() => !document.querySelector('.replay .notes .angle')?.textContent);
     assert.equal(await it.page.locator('.replay [data-quantity="finding"]').count(), 0);
+    it.clean();
+  });
+});
+
+describe('a metric of normals is drawn', { skip }, () => {
+  const it = reportOf(() => makeRunOf('normals', 'pile_2d', '--engines', 'bullet'));
+
+  test('the number of the metric of normals leads to the point whose normal was the worst', async () => {
+    const rows = query(
+      it.run,
+      `SELECT c.scenario, c.spec, c.dt, m.value, a.findings FROM metrics m JOIN cases c ON c.id = m.case_id JOIN audit a ON a.case_id = c.id
+       WHERE m.name = 'normal_error' AND m.subject = '' AND a.auditor = 'in_run' AND a.findings <> '' ORDER BY m.value DESC`,
+    ) as [string, string, number, number, string][];
+    const row = rows.find(([, , , value, text]) =>
+      (JSON.parse(text) as Stored[]).some((f) => f.what.endsWith('normal') && Math.abs(f.error - value) < 1e-7),
+    );
+    assert.ok(row, 'the audit has the point of a metric');
+    const [scenario, spec, dt, value] = row;
+    await it.open(`#/scenario/${scenario}?dt=${dt}`);
+    const cell = `#metrics tr[data-metric="normal_error"][data-subject=""] td[data-spec="${spec}"] a.moment`;
+    await it.page.click(cell);
+    await it.page.waitForSelector('.replay .notes .angle:not(:empty)');
+    const label = Number.parseFloat(await it.text('.replay .notes .angle'));
+    const degrees = (value * 180) / Math.PI;
+    assert.ok(Math.abs(label - degrees) < 0.006 * degrees, `${label}° is shown, ${degrees}° is the metric`);
     it.clean();
   });
 });

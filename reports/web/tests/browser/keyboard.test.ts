@@ -53,7 +53,10 @@ describe('a report by the keyboard alone', { skip }, () => {
     assert.match(it.page.url(), /#scoreboard$/);
     await tabTo('#page a[href^="#/scenario/box_stack"]', 120);
     await follow('Enter');
-    await tabTo('#replay *', 20);
+    await tabTo('.contents [data-section="replay"]', 16);
+    await press('Enter');
+    assert.ok(await has('#replay > h2'), 'its heading has the focus');
+    await tabTo('#replay *', 1);
     await it.page.waitForFunction(() => document.activeElement?.matches('.replay canvas'));
     const time = async () => Number.parseFloat((await it.page.textContent('.replay .clock')) ?? '');
     await tabTo('.replay [data-action="play"]', 8);
@@ -85,6 +88,19 @@ describe('a report by the keyboard alone', { skip }, () => {
     await it.page.keyboard.type('free_flight');
     await follow('Enter');
     assert.match(it.page.url(), /#\/scenario\/free_flight/);
+    it.clean();
+  });
+
+  test('the first key leads past the bar', async () => {
+    await it.open();
+    const address = it.page.url();
+    await press('Tab');
+    assert.ok(await has('a.skip'));
+    const box = await it.page.locator('a.skip').boundingBox();
+    assert.ok(box && box.x >= 0 && box.width > 50, 'it is seen while it has the focus');
+    await press('Enter');
+    assert.equal(it.page.url(), address, 'the page stays');
+    await tabTo('#page *', 1);
     it.clean();
   });
 

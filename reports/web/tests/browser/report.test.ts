@@ -4,6 +4,7 @@
 // The report of a real run, from disk, with the network cut: opens quickly, filters, sorts, opens cases, switches
 // engines, and shows the numbers that the store holds.
 import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, test } from 'node:test';
 import { open, query, reportOf, screenshots, skip, smokeRun, watched } from '../browser.ts';
@@ -88,6 +89,34 @@ describe('the report of a real run', { skip }, () => {
     await it.open('#glossary');
     assert.match(await it.text('#glossary dl'), /Witness points/);
     assert.match(await it.text('#glossary'), /max_t \|x\(t\) - x_exact\(t\)\|/);
+    it.clean();
+  });
+
+  test('the name of a metric leads to its formula, and Back to the table', async () => {
+    await it.open('#/scenario/free_flight');
+    await it.page.locator('#metrics tr[data-metric="position_max"] th a').first().click();
+    await it.page.waitForSelector('#glossary');
+    assert.match(it.page.url(), /#term-position_max$/);
+    await it.page.waitForFunction(() => document.activeElement?.id === 'term-position_max');
+    await it.page.goBack();
+    await it.page.waitForSelector('#metrics tr[data-metric="position_max"]');
+    it.clean();
+  });
+
+  test('tables and plots of a scenario are linked where they are files', async () => {
+    await it.open('#/scenario/free_flight');
+    const links = async (of: string) =>
+      it.page.locator(`[data-files="${of}"] a`).evaluateAll((all) => all.map((a) => a.getAttribute('href') ?? ''));
+    const tables = await links('tables');
+    const plots = await links('plots');
+    assert.deepEqual(
+      tables.map((file) => file.split('.').at(-1)),
+      ['csv', 'md', 'tex'],
+    );
+    assert.deepEqual(plots, ['plots/free_flight-position_error.svg', 'plots/free_flight-position_error.csv']);
+    for (const file of [...tables, ...plots]) assert.ok(existsSync(join(it.run, file)), file);
+    const plot = readFileSync(join(it.run, plots[0] as string), 'utf8');
+    assert.match(plot, /position error of [a-z]/, 'it says of which body');
     it.clean();
   });
 
@@ -326,7 +355,7 @@ describe('the report of a real run', { skip }, () => {
     const text = (await link.textContent()) ?? '';
     const now = await it.page.locator('output.time').textContent();
     assert.ok(
-      Math.abs(Number(now?.match(/[\d.e-]+/)?.[0]) - Number.parseFloat(text.split('t=')[1] ?? '')) < 1e-3,
+      Math.abs(Number(now?.match(/[\d.e-]+/)?.[0]) - Number.parseFloat(text.split('t = ')[1] ?? '')) < 1e-3,
       `${now} ${text}`,
     );
     it.clean();

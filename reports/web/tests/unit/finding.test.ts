@@ -2,10 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { angleBetween, type ContactFinding, nearestExact, placeOf } from '../../src/common/finding.ts';
-import { arc, degrees, findingNotes, lengthText } from '../../src/replay/finding_overlay.ts';
+import { angleBetween, type ContactFinding, nearestExact, type Point, placeOf } from '../../src/common/finding.ts';
+import { arc, degrees, findingNotes, lengthText, type Note } from '../../src/replay/finding_overlay.ts';
 import type { Frame, FrameSource } from '../../src/replay/frames.ts';
 import { Measure } from '../../src/replay/measure.ts';
+import { noteHeight, placedNotes } from '../../src/replay/notes_layout.ts';
 
 const finding: ContactFinding = {
   what: 'normal',
@@ -93,4 +94,31 @@ test('a measured point stays with its body', () => {
   assert.equal(measure.at(() => frame(0))?.notes.find((n) => n.kind === 'angle')?.text, '90°');
   measure.add(source, frame(0), 1, [2, 0, 0]);
   assert.equal(measure.count, 1, 'a fourth point begins anew');
+});
+
+test('texts over the picture never cover each other and stay in their panel', () => {
+  const source = {} as FrameSource;
+  const panel = { rect: { x: 100, y: 0, width: 300, height: 200 }, sources: [source] };
+  const view = { panels: [panel], project: (_: unknown, [x, y]: Point) => [x, y] as [number, number] };
+  const note = (x: number, y: number, text: string, kind: 'engine' | 'exact' | 'angle'): Note => ({
+    at: [x, y, 0],
+    text,
+    kind,
+  });
+  const notes = [note(250, 100, 'bullet', 'engine'), note(240, 103, 'exact', 'exact'), note(246, 99, '9.23°', 'angle')];
+  const close = [note(395, 50, 'exact', 'exact'), note(90, 50, 'outside', 'angle')];
+  const placed = placedNotes(view as never, [{ source, notes: [...notes, ...close] }], (text) => 8 * text.length);
+  assert.deepEqual(
+    placed.map((p) => p.text),
+    ['bullet', 'exact', '9.23°', 'exact'],
+  );
+  for (const a of placed)
+    for (const b of placed)
+      if (a !== b)
+        assert.ok(
+          a.left + a.width <= b.left || b.left + b.width <= a.left || Math.abs(a.top - b.top) >= noteHeight,
+          `${a.text} covers ${b.text}`,
+        );
+  assert.ok(placed.every((p) => p.left >= 100 && p.left + p.width <= 400));
+  assert.ok(Math.abs((placed[0]?.top ?? 0) + noteHeight / 2 - 100) < 1, 'the first one stays at its point');
 });

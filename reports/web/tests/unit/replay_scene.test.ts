@@ -248,6 +248,14 @@ test('every kind of shape has faces or lines in its dimension', () => {
   assert.equal(chain?.template.edges.getAttribute('position').count, 6, 'a loop of three has three segments');
 });
 
+test('circles in 2D stay round, however many there are', () => {
+  const cache = new TemplateCache(1000, true);
+  const corners = (dimension: 2 | 3) =>
+    cache.of({ kind: 'sphere', radius: 1 }, dimension)?.template.edges.getAttribute('position').count ?? 0;
+  assert.ok(corners(2) >= 2 * 40);
+  assert.ok(corners(3) < 3 * 2 * 24, 'balls have fewer lines there');
+});
+
 test('the hull of points in 2D', () => {
   assert.deepEqual(
     hull2d([

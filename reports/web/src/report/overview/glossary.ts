@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { el } from '../../common/elements.ts';
 import { words } from '../../common/format.ts';
-import { metricTerms, type Term, terms } from '../glossary_terms.ts';
+import { metricTerms, type Term, termId, terms } from '../glossary_terms.ts';
 import { run } from '../run.ts';
 import { panel } from '../widgets.ts';
 
 const entry = ({ name, meaning, formula }: Term) => [
-  el('dt', { id: `term-${name}` }, words(name)),
+  el('dt', { id: termId(name), tabindex: -1 }, words(name)),
   el('dd', null, meaning, formula ? el('div', { class: 'small muted formula' }, formula) : null),
 ];
 

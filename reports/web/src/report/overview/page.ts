@@ -4,6 +4,7 @@
 // The overview: tabs of sections. A section is one file and one line here, where it shall stand. The address of a tab, and
 // of a section in it, is "#id".
 import { benchSection } from '../bench/section.ts';
+import { termPrefix } from '../glossary_terms.ts';
 import { run, study } from '../run.ts';
 import { studySection } from '../study/page.ts';
 import { contactQueries, contactsActedUpon } from './contacts.ts';
@@ -99,6 +100,8 @@ export const tabs: Tab[] = (run.single ? all.filter((tab) => tab.id === 'method'
   .map((tab) => ({ ...tab, sections: tab.sections.filter((s) => s.has?.() !== false) }))
   .filter((tab) => tab.sections.length > 0);
 
-/** The tab of an address "#id", which may be that of a section; the first one for any other. */
-export const tabOf = (id: string): Tab =>
-  tabs.find((tab) => tab.id === id || tab.sections.some((s) => s.id === id)) ?? (tabs[0] as Tab);
+/** The tab of an address "#id", which may be that of a section or of a term; the first one for any other. */
+export function tabOf(id: string): Tab {
+  const place = id.startsWith(termPrefix) ? 'glossary' : id;
+  return tabs.find((tab) => tab.id === place || tab.sections.some((s) => s.id === place)) ?? (tabs[0] as Tab);
+}

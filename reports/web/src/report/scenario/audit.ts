@@ -8,7 +8,7 @@ import { type ContactFinding, findingKey } from '../../common/finding.ts';
 import { angle, format, full, type Maybe } from '../../common/format.ts';
 import type { Audit, Case } from '../data.ts';
 import { labelOf } from '../run.ts';
-import { chip, headRow, numberCell, panel, scroll } from '../widgets.ts';
+import { chip, headRow, metricName, numberCell, panel, scroll } from '../widgets.ts';
 import { placeTime, worstPlace } from '../worst.ts';
 import { type Context, moment } from './context.ts';
 
@@ -18,6 +18,7 @@ const angleCell = (value: Maybe) =>
 
 const kindWords: Record<ContactFinding['what'], string> = {
   normal: 'normal',
+  point_normal: 'normal of one point',
   depth: 'depth',
   missed: 'missed, overlap',
   spurious: 'false, gap',
@@ -37,82 +38,84 @@ function findingLink(context: Context, c: Case, auditor: string, found: ContactF
 /** A link to the drawing of the worst of each kind; to the moment alone in runs that did not keep the exact solution. */
 function worstCell(context: Context, c: Case, a: Audit): HTMLElement {
   const place = worstPlace(a.worst);
-  const old = () =>
-    place ? moment(context, c.spec, placeTime(place, context.dt), place.bodies, a.worst, place.contact) : a.worst;
+  const old = () => {
+    if (!place) return a.worst;
+    const time = placeTime(place, context.dt);
+    const text = `${place.what || 'worst'}: ${place.bodies.join(' and ')}, t = ${format(time)} s`;
+    return moment(context, c.spec, time, place.bodies, text, place.contact);
+  };
   const found = a.findings ?? [];
   const links = found.map((f) => el('div', null, findingLink(context, c, a.auditor, f)));
   const isNamed = found.some((f) => f.what === place?.what);
   return el('td', { class: 'small worst' }, isNamed ? null : old(), links);
 }
 
-function auditorRow(context: Context, c: Case, a: Audit): HTMLElement {
-  const ended =
-    a.outcome === 'completed' ? null : el('span', { class: 'bound' }, a.outcome, a.note ? `: ${a.note}` : '');
+const lengthCell = (value: Maybe) => numberCell(value, 'm');
+/** The largest, and below it the median. */
+function withMedian(worst: HTMLElement, median: Maybe, text: string): HTMLElement {
+  if (median !== null) worst.append(el('span', { class: 'bound', 'data-median': full(median) }, `median ${text}`));
+  return worst;
+}
+
+interface AuditColumn {
+  head: string;
+  cell: (a: Audit, c: Case, context: Context) => HTMLElement;
+  text?: boolean; // else a number
+}
+
+const normals: AuditColumn['cell'] = (a) =>
+  withMedian(angleCell(a.normalErrorMax), a.normalErrorMedian, angle(a.normalErrorMedian));
+const depths: AuditColumn['cell'] = (a) =>
+  withMedian(lengthCell(a.depthErrorMax), a.depthErrorMedian, format(a.depthErrorMedian));
+
+const columns: AuditColumn[] = [
+  { head: 'Worst', text: true, cell: (a, c, context) => worstCell(context, c, a) },
+  { head: 'Missed', cell: (a) => count(a.missed, true) },
+  { head: 'Spurious', cell: (a) => count(a.spurious, true) },
+  { head: 'Normal, worst', cell: normals },
+  { head: 'Depth, worst [m]', cell: depths },
+  { head: 'Point, worst [m]', cell: (a) => lengthCell(a.pointErrorMax) },
+  { head: 'Pairs', cell: (a) => count(a.queries) },
+  { head: 'Overlap', cell: (a) => count(a.overlapping) },
+  { head: 'Undecided', cell: (a) => count(a.undecided) },
+  { head: 'Frames', cell: (a) => count(a.frames) },
+];
+const pairColumns: AuditColumn[] = [
+  { head: 'Poses of', text: true, cell: (_, c) => el('td', null, labelOf(c.spec)) },
+  { head: 'Pairs', cell: (a) => count(a.queries) },
+  { head: 'Overlap for both', cell: (a) => count(a.overlapping) },
+  { head: 'For the first alone', cell: (a) => count(a.spurious) },
+  { head: 'For the second alone', cell: (a) => count(a.missed) },
+  { head: 'Normals apart, worst', cell: normals },
+  { head: 'Depths apart, worst [m]', cell: depths },
+  { head: 'Worst', text: true, cell: (a, c, context) => worstCell(context, c, a) },
+];
+
+function rowOf(list: AuditColumn[], context: Context, c: Case, a: Audit): HTMLElement {
+  const name = a.auditor === 'in_run' ? 'the run itself' : a.auditor.replace('|', ' and ');
+  const ended = a.outcome === 'completed' ? '' : a.note ? `${a.outcome}: ${a.note}` : a.outcome;
+  const cells = list.map(({ head, cell }) => {
+    const node = cell(a, c, context);
+    node.dataset.label = head;
+    return node;
+  });
   return el(
     'tr',
     { 'data-auditor': a.auditor, class: a.auditor === 'in_run' ? 'own' : null },
-    el('th', { class: 'sticky', scope: 'row' }, a.auditor === 'in_run' ? 'the run itself' : a.auditor, ended),
-    worstCell(context, c, a),
-    count(a.frames),
-    count(a.queries),
-    count(a.overlapping),
-    count(a.missed, true),
-    count(a.spurious, true),
-    count(a.undecided),
-    angleCell(a.normalErrorMax),
-    angleCell(a.normalErrorMedian),
-    numberCell(a.depthErrorMax, 'm'),
-    numberCell(a.depthErrorMedian, 'm'),
-    numberCell(a.pointErrorMax, 'm'),
+    el('th', { class: 'sticky', scope: 'row' }, name, ended ? el('span', { class: 'bound' }, ended) : null),
+    cells,
   );
 }
 
-function pairRow(context: Context, c: Case, a: Audit): HTMLElement {
-  return el(
-    'tr',
-    null,
-    el('th', { class: 'sticky', scope: 'row' }, a.auditor.replace('|', ' and ')),
-    el('td', null, labelOf(c.spec)),
-    count(a.queries),
-    count(a.overlapping),
-    count(a.spurious),
-    count(a.missed),
-    angleCell(a.normalErrorMax),
-    angleCell(a.normalErrorMedian),
-    numberCell(a.depthErrorMax, 'm'),
-    numberCell(a.depthErrorMedian, 'm'),
-    worstCell(context, c, a),
+const tableOf = (list: AuditColumn[], bodies: HTMLElement[]): HTMLElement =>
+  scroll(
+    el(
+      'table',
+      { class: 'full stacked in-lines' },
+      headRow(['Queried', ...list.map((column) => column.head)], (i) => i > 0 && !list[i - 1]?.text),
+      bodies,
+    ),
   );
-}
-
-const heads = [
-  'Queried',
-  'Worst',
-  'Frames',
-  'Pairs',
-  'Overlap',
-  'Missed',
-  'Spurious',
-  'Undecided',
-  'Normal, worst',
-  'median',
-  'Depth, worst [m]',
-  'median [m]',
-  'Point, worst [m]',
-];
-const pairHeads = [
-  'Queried',
-  'Poses of',
-  'Pairs',
-  'Overlap for both',
-  'For the first alone',
-  'For the second alone',
-  'Normals apart, worst',
-  'median',
-  'Depths apart, worst [m]',
-  'median [m]',
-  'Worst',
-];
 
 export function caseAudit(context: Context): HTMLElement | null {
   const audited = context.cases.filter((c) => c.audit.length);
@@ -122,12 +125,11 @@ export function caseAudit(context: Context): HTMLElement | null {
     el(
       'tbody',
       null,
-      el('tr', { class: 'sub' }, el('th', { colspan: heads.length }, `Poses of ${labelOf(c.spec)}`)),
-      c.audit.filter((a) => !isPair(a)).map((a) => auditorRow(context, c, a)),
+      el('tr', { class: 'sub' }, el('th', { colspan: columns.length + 1 }, `Poses of ${labelOf(c.spec)}`)),
+      c.audit.filter((a) => !isPair(a)).map((a) => rowOf(columns, context, c, a)),
     ),
   );
-  const pairs = audited.flatMap((c) => c.audit.filter(isPair).map((a) => pairRow(context, c, a)));
-  const last = (list: string[]) => (i: number) => i > 0 && i < list.length - 1;
+  const pairs = audited.flatMap((c) => c.audit.filter(isPair).map((a) => rowOf(pairColumns, context, c, a)));
   return panel(
     'case-audit',
     'Contact audit',
@@ -135,23 +137,18 @@ export function caseAudit(context: Context): HTMLElement | null {
       'p',
       { class: 'muted' },
       'Sampled poses of the run named in the grey rows: the contacts that the run itself acted upon, and every collision engine queried at the same poses, ',
-      'against the exact oracle. A link under “Worst” opens that moment and draws the engine’s normal, the exact ones, the angle between them and the witness points.',
+      'against the exact oracle. A link under “Worst” opens that moment and draws the engine’s normal, the exact ones, the angle between them and the witness points. The metric ',
+      metricName('normal_error'),
+      ' is the worst over all points and frames, by closed forms alone; the columns here look at the deepest point of a pair in sampled frames.',
     ),
-    scroll(
-      el(
-        'table',
-        { class: 'full' },
-        headRow(heads, (i) => i > 1),
-        bodies,
-      ),
-    ),
+    tableOf(columns, bodies),
     pairs.length
       ? el(
           'details',
           { id: 'audit-pairs' },
           el('summary', null, 'Collision engines against each other'),
           el('p', { class: 'muted' }, 'Normals that are both among the exact ones count as the same.'),
-          scroll(el('table', { class: 'full' }, headRow(pairHeads, last(pairHeads)), el('tbody', null, pairs))),
+          tableOf(pairColumns, [el('tbody', null, pairs)]),
         )
       : null,
   );

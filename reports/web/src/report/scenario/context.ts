@@ -8,7 +8,7 @@ import { type ContactFinding, findingKey } from '../../common/finding.ts';
 import { format } from '../../common/format.ts';
 import { stepAt } from '../../common/steps.ts';
 import type { Case, Scenario, ScenarioData } from '../data.ts';
-import { scenarioLink } from '../run.ts';
+import { run, scenarioLink } from '../run.ts';
 
 export interface Context {
   scenario: Scenario;
@@ -55,6 +55,16 @@ export function moment(
     { href, class: 'moment', title: `Show t = ${format(time)} s in curves and replay`, onclick: show },
     text,
   );
+}
+
+/** Links to the files of a folder beside the page; null where there are none, as for a page that was sent alone. */
+export function fileLinks({ data }: Context, folder: 'tables' | 'plots', what: string): HTMLElement | null {
+  const files = run.single ? [] : (data.files ?? []).filter((file) => file.startsWith(`${folder}/`));
+  if (files.length === 0) return null;
+  const formats: Record<string, string> = { csv: 'CSV', md: 'Markdown', tex: 'LaTeX', svg: 'SVG' };
+  const ending = (file: string) => file.slice(file.lastIndexOf('.') + 1);
+  const link = (file: string, i: number) => [i ? ' · ' : '', el('a', { href: file }, formats[ending(file)] ?? file)];
+  return el('p', { class: 'small noprint', 'data-files': folder }, `${what}: `, files.map(link));
 }
 
 /** The finding of a key in the audit of a run at the time step that is shown. */

@@ -14,7 +14,7 @@ import { bodyNames, type CurvePlot, collectCurves, referenceLabel, wantsLog } fr
 import type { Column } from '../data.ts';
 import { columnOf, columnsAmong, engineColour } from '../run.ts';
 import { panel, select } from '../widgets.ts';
-import type { Context } from './context.ts';
+import { type Context, fileLinks } from './context.ts';
 
 const lineStyle = (spec: string) => {
   const column = columnOf(spec);
@@ -142,5 +142,6 @@ export function curves(context: Context): HTMLElement | null {
       'Drag to zoom, double click to see everything, click to set the time. Thinned for viewing to about 200 points that keep the ',
       'extremes; the full series are in the trajectory files.',
     ),
+    fileLinks(context, 'plots', 'The main plot as a file'),
   );
 }

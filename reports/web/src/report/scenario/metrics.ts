@@ -3,12 +3,36 @@
 //
 // One table, engines as columns, metrics as rows under a heading per kind; a number with a time is a link to it.
 import { type Child, el } from '../../common/elements.ts';
-import { format, full, inShownUnit, type Maybe, shownUnit, toNumber, words } from '../../common/format.ts';
+import { findingKey } from '../../common/finding.ts';
+import { format, full, inShownUnit, type Maybe, shownUnit, toNumber } from '../../common/format.ts';
 import type { Case, Column, Metric } from '../data.ts';
 import { caseOf, metricShown, run, verdictText } from '../run.ts';
-import { chip, panel, scroll, specHead, stickyHead } from '../widgets.ts';
-import { type Context, moment } from './context.ts';
+import { chip, metricName, panel, scroll, specHead, stickyHead } from '../widgets.ts';
+import { type Context, fileLinks, moment } from './context.ts';
 import { bodiesOf } from './outcomes.ts';
+
+const sameTime = 1e-9; // [s]
+const sameAngle = 1e-6; // [rad]
+
+/** Bodies of the worst value: those that it is of, or of the whole scene the one that has the same value then. */
+function worstBodies(all: Metric[], m: Metric): string[] {
+  if (m.subject) return bodiesOf(m.subject);
+  const own = all.find((x) => x.subject && x.name === m.name && x.value === m.value && x.at === m.at);
+  return own ? bodiesOf(own.subject) : [];
+}
+
+/** The finding of the audit at the contact point whose normal is the metric's worst: it has the exact one to draw. */
+function normalThere(c: Case | undefined, m: Metric, dt: number): string | null {
+  const own = c?.audit.find((a) => a.auditor === 'in_run')?.findings ?? [];
+  if (m.name !== 'normal_error') return null;
+  const found = own.find(
+    ({ what, step, error }) =>
+      what.endsWith('normal') &&
+      Math.abs(step * dt - toNumber(m.at)) < sameTime &&
+      Math.abs(error - toNumber(m.value)) < sameAngle,
+  );
+  return found ? findingKey('in_run', found.what) : null;
+}
 
 const kinds: [kind: string, title: string, meaning: string][] = [
   ['exact', 'Against the exact solution', 'accuracy: the distance from the physics'],
@@ -31,14 +55,18 @@ const kinds: [kind: string, title: string, meaning: string][] = [
 ];
 
 function cell(context: Context, column: Column, name: string, subject: string): HTMLElement {
-  const m = caseOf(context.cases, column)?.metrics.find((x) => x.name === name && x.subject === subject);
-  if (!m) return el('td', { class: 'num muted' });
+  const c = caseOf(context.cases, column);
+  const m = c?.metrics.find((x) => x.name === name && x.subject === subject);
+  if (!c || !m) return el('td', { class: 'num muted' });
   const judged = m.bound !== null || m.verdict !== 'pass';
   const shown = metricShown(m.verdict);
   const shownValue = (value: Maybe | undefined, digits = 4) => format(inShownUnit(value, m.unit), digits);
   const at = toNumber(m.at);
+  const finding = normalThere(c, m, context.dt);
   const text: Child =
-    at >= 0 ? moment(context, column.spec, at, bodiesOf(m.subject), shownValue(m.value)) : shownValue(m.value);
+    at >= 0
+      ? moment(context, column.spec, at, worstBodies(c.metrics, m), shownValue(m.value), null, finding)
+      : shownValue(m.value);
   const title = `${full(m.value)} ${m.unit}${at >= 0 ? ` at t = ${format(at)} s` : ''}${m.scale !== null ? `\nover its scale ${format(m.scale)} ${m.unit}: ${full(m.relative)}` : ''}${m.recorded !== null ? `\non record: ${full(m.recorded)}` : ''}${m.orderCount ? `\nover ${m.orderCount} orders of insertion: ${full(m.orderMin)} … ${full(m.orderMax)}` : ''}${m.note ? `\n${m.note}` : ''}`;
   const small = (line: string) => el('span', { class: 'bound' }, line);
   return el(
@@ -75,7 +103,7 @@ function table(context: Context, columns: Column[], whole: boolean): HTMLElement
       el(
         'th',
         { class: 'sticky', scope: 'row' },
-        words(m.name),
+        metricName(m.name),
         m.subject ? el('span', { class: 'muted' }, ` ${m.subject}`) : '',
       ),
       el('td', { class: 'muted' }, m.unit === '1' ? '' : shownUnit(m.unit)),
@@ -110,14 +138,16 @@ export function metrics(context: Context): HTMLElement {
   const about = el(
     'p',
     { class: 'muted small' },
-    'All digits on hover. A number that is a link shows the moment where it was worst.',
+    'All digits on hover. A number that is a link shows the moment where it was worst; the name of a metric leads to its formula.',
   );
-  if (whole === null || single === null) return panel('metrics', 'Metrics', about, whole ?? single);
+  const files = fileLinks(context, 'tables', 'This table as a file');
+  if (whole === null || single === null) return panel('metrics', 'Metrics', about, whole ?? single, files);
   return panel(
     'metrics',
     'Metrics',
     about,
     whole,
+    files,
     el('details', null, el('summary', null, 'By body, joint and quantity'), single),
   );
 }

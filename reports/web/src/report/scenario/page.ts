@@ -12,6 +12,7 @@ import { run } from '../run.ts';
 import { panel } from '../widgets.ts';
 import { caseAudit } from './audit.ts';
 import { commands } from './commands.ts';
+import { contents } from './contents.ts';
 import { type Context, type Section, showMoment } from './context.ts';
 import { curves } from './curves.ts';
 import { freePlots } from './free_plots.ts';
@@ -82,6 +83,8 @@ export async function scenarioPage(name: string, query: URLSearchParams): Promis
   }
   const context = contextOf(index, data, query);
   const nodes = sections.map((section) => section(context)).filter((node) => node !== null);
+  const list = contents(nodes);
+  if (list) nodes.unshift(list);
   const { spec } = context;
   const shown = () => {
     if (query.has('view')) document.getElementById('replay')?.scrollIntoView();
