@@ -82,7 +82,7 @@ template <class S>
 engine::SvgLines<S> pictureOf(const Scene& scene, const DrawArguments& a) {
     constexpr double kDegree = 3.14159265358979323846 / 180.0;
     engine::DebugOptions<S> options = optionsFor<S>(kindsOf(a.show, kShow));
-    fitArrows<S>(scene, options);
+    fitLengths<S>(scene, options);
     engine::SvgLines<S> picture({kDegree * a.turn, kDegree * a.lift});
     // The frame is that of what moves, and of its contacts and joints.
     drawScene<S>(scene, options, picture, [&picture](bool moves) { picture.keepInFrame(moves); });

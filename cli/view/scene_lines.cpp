@@ -170,8 +170,20 @@ engine::DebugOptions<S> optionsFor(const std::set<DebugKind>& kinds) {
     return options;
 }
 
+/// How far a ground reaches from the origin so that it is half as wide again as what moves above it [m].
 template <class S>
-void fitArrows(const Scene& scene, engine::DebugOptions<S>& options) {
+double groundSize(typename S::Vec low, typename S::Vec high, const scenario::Scenario& scenario) {
+    const auto down = adapter::toEngineVec<S>(scenario.gravity);
+    int vertical = 0;
+    if (down.norm() > 0.0) {
+        down.cwiseAbs().maxCoeff(&vertical);
+        low[vertical] = high[vertical] = 0.0;
+    }
+    return 1.5 * low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm();
+}
+
+template <class S>
+void fitLengths(const Scene& scene, engine::DebugOptions<S>& options) {
     using Vec = typename S::Vec;
     Vec low = Vec::Constant(1e300), high = Vec::Constant(-1e300);
     double fastest = 0.0, hardest = 0.0;
@@ -188,8 +200,10 @@ void fitArrows(const Scene& scene, engine::DebugOptions<S>& options) {
     for (const adapter::ContactPoint& c : scene.contacts)
         hardest =
             std::max(hardest, std::hypot(c.normalImpulse, adapter::toEngineVec<S>(c.frictionImpulse).norm()));
-    const double length = 0.1 * ((high.array() >= low.array()).all() ? (high - low).norm() : 1.0);
+    const bool any = (high.array() >= low.array()).all();
+    const double length = 0.1 * (any ? (high - low).norm() : 1.0);
     options.normalLength = 0.4 * length;
+    if (S::dim == 3 && any) options.planeSize = groundSize<S>(low, high, *scene.scenario);
     if (fastest > 0.0) options.velocityScale = length / fastest;
     if (hardest > 0.0) options.impulseScale = length / hardest;
 }
@@ -215,7 +229,7 @@ void drawScene(const Scene& scene, const engine::DebugOptions<S>& options, engin
 
 #define RIGOR_INSTANTIATE(S)                                                                    \
     template engine::DebugOptions<engine::S> optionsFor<engine::S>(const std::set<DebugKind>&); \
-    template void fitArrows<engine::S>(const Scene&, engine::DebugOptions<engine::S>&);         \
+    template void fitLengths<engine::S>(const Scene&, engine::DebugOptions<engine::S>&);        \
     template void drawScene<engine::S>(const Scene&, const engine::DebugOptions<engine::S>&,    \
                                        engine::LineSink<engine::S>&, const std::function<void(bool)>&);
 RIGOR_INSTANTIATE(Space2d)

@@ -35,9 +35,9 @@ std::set<engine::DebugKind> kindsOf(const std::string& list, const std::string& 
 /// Options that show these kinds alone.
 template <class S>
 engine::DebugOptions<S> optionsFor(const std::set<engine::DebugKind>& kinds);
-/// Lengths of arrows in proportion to the scene: the longest velocity and impulse are a tenth of it.
+/// Lengths of arrows and of half-spaces in proportion to the scene: the longest velocity and impulse are a tenth of it.
 template <class S>
-void fitArrows(const Scene& scene, engine::DebugOptions<S>& options);
+void fitLengths(const Scene& scene, engine::DebugOptions<S>& options);
 
 /// Passes the scene to the sink. A line belongs to the body of its scenario index plus one, as BodyId::index. `before` is
 /// called before the lines of each body, with whether it can move, and with true before contacts, joints and islands.

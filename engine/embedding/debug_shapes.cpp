@@ -62,17 +62,20 @@ class ShapeOutline {
     }
     void operator()(const HalfSpace<S>& plane) const {
         const Vec foot = plane.offset * plane.normal;
-        const auto across = [&](const Vec& direction) {
+        const auto across = [&](const Vec& through, const Vec& direction) {
             const Vec reach = options_.planeSize * direction;
-            line(Vec(foot - reach), Vec(foot + reach));
+            line(Vec(through - reach), Vec(through + reach));
         };
         if constexpr (S::dim == 2) {
-            across(Vec(-plane.normal.y(), plane.normal.x()));
-        } else {
+            across(foot, Vec(-plane.normal.y(), plane.normal.x()));
+        } else {  // a grid of four by four squares
             const Vec axis = std::abs(plane.normal.x()) < Real(0.7) ? Vec::Unit(0) : Vec::Unit(1);
-            const Vec u = axis.cross(plane.normal).normalized();
-            across(u);
-            across(plane.normal.cross(u));
+            const Vec u = axis.cross(plane.normal).normalized(), v = plane.normal.cross(u);
+            for (int i = -2; i <= 2; ++i) {
+                const Real aside = Real(0.5 * i) * options_.planeSize;
+                across(Vec(foot + aside * v), u);
+                across(Vec(foot + aside * u), v);
+            }
         }
         line(foot, Vec(foot + options_.normalLength * plane.normal));
     }

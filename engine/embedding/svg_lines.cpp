@@ -75,7 +75,9 @@ Picture SvgLines<S>::picture(int width) const {
     const auto [left, right, bottom, top] = frame();
     const double margin = 12,
                  scale = (width - 2 * margin) / std::max({right - left, 0.5 * (top - bottom), 1e-9});
-    const auto x = [&, low = left](double value) { return margin + scale * (value - low); };
+    const double aside =
+        0.5 * (width - 2 * margin - scale * (right - left));  // on both sides of what is high
+    const auto x = [&, low = left](double value) { return margin + aside + scale * (value - low); };
     const auto y = [&, high = top](double value) { return margin + scale * (high - value); };
     Picture picture{width, 2 * margin + scale * (top - bottom), {}};
     for (const Stroke& s : strokes_)
