@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "validation/comparison/compare.hpp"
 
@@ -61,6 +62,12 @@ void addSome(std::string& text, const std::string& title, const List& list, std:
     if (list.size() > most) text += "  and " + std::to_string(list.size() - most) + " more\n";
 }
 
+/// The case that another one would be compared with.
+const char* partnerName(PairBy by) {
+    constexpr const char* kNames[] = {"run", "engine of their preset", "spec of their engine", "time step"};
+    return kNames[static_cast<std::size_t>(by)];
+}
+
 Json finite(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -90,24 +97,33 @@ std::string comparisonText(const RunComparison& c, const CompareOptions& options
                stepName(x.place.dt, x.place.dtAfter);
     };
     const std::string changed = c.pairBy == PairBy::Nothing ? "changed" : "differ";
+    const auto state = [](const auto& x) {
+        return x.worse ? "worse   " : x.better ? "better  " : "other   ";
+    };
     addSome(text, "Verdicts that " + changed, c.verdicts, most, [&](const VerdictChange& v) {
-        return std::string(v.worse    ? "worse   "
-                           : v.better ? "better  "
-                                      : "other   ") +
-               where(v) + ": " + v.before + " -> " + v.after +
+        return state(v) + where(v) + ": " + v.before + " -> " + v.after +
                (v.reason.empty() ? "" : " (" + v.reason + ")");
     });
-    addSome(text, "Errors that " + changed + " by more than " + number(100.0 * options.tolerance) + " %",
-            c.metrics, most, [&](const MetricChange& m) {
-                return std::string(m.worse ? "worse   " : "better  ") + where(m) + ": " + m.metric + " " +
-                       number(m.before) + " -> " + number(m.after) + (m.unit == "1" ? "" : " " + m.unit);
-            });
+    const auto metric = [&](const MetricChange& m) {
+        return state(m) + where(m) + ": " + m.metric + " " + number(m.before) + " -> " + number(m.after) +
+               (m.unit == "1" ? "" : " " + m.unit);
+    };
+    const std::string share = changed + " by more than " + number(100.0 * options.tolerance) + " %";
+    const auto others = std::partition_point(c.metrics.begin(), c.metrics.end(),
+                                             [](const MetricChange& m) { return m.worse || m.better; });
+    addSome(text, "Errors that " + share, std::span(c.metrics.begin(), others), most, metric);
+    addSome(text, "Other numbers that " + share + ", neither better nor worse",
+            std::span(others, c.metrics.end()), most, metric);
     const auto plain = [](const std::string& line) { return line; };
     addSome(text, "Scenarios whose files differ, not compared", c.changedScenarios, most, plain);
     addSome(text, "Only before", c.onlyBefore, most, plain);
     addSome(text, "Only after", c.onlyAfter, most, plain);
+    addSome(text, std::string("Cases without another ") + partnerName(c.pairBy) + ", not compared",
+            c.unpaired, most, plain);
     addSome(text, "Other environment", c.environment, most, plain);
-    if (c.verdicts.empty() && c.metrics.empty()) text += "No verdict and no error changed.\n";
+    if (c.verdicts.empty() && others == c.metrics.begin())
+        text += std::string("No verdict and no error ") +
+                (c.pairBy == PairBy::Nothing ? "changed" : "differs") + ".\n";
     return text;
 }
 
@@ -124,7 +140,7 @@ std::string comparisonJson(const RunComparison& c) {
              {"specs", Json::array()},       {"verdicts", Json::array()},
              {"metrics", Json::array()},     {"changed_scenarios", c.changedScenarios},
              {"only_before", c.onlyBefore},  {"only_after", c.onlyAfter},
-             {"environment", c.environment}};
+             {"unpaired", c.unpaired},       {"environment", c.environment}};
     for (const SpecChange& s : c.specs)
         out["specs"].push_back(
             {{"name", specName(s)},
@@ -142,8 +158,11 @@ std::string comparisonJson(const RunComparison& c) {
              {"first_time_ratio", s.firstRatio ? Json(*s.firstRatio) : Json(nullptr)}});
     for (const VerdictChange& v : c.verdicts) {
         out["verdicts"].push_back(place(v.place));
-        out["verdicts"].back().update(
-            {{"before", v.before}, {"after", v.after}, {"worse", v.worse}, {"reason", v.reason}});
+        out["verdicts"].back().update({{"before", v.before},
+                                       {"after", v.after},
+                                       {"worse", v.worse},
+                                       {"better", v.better},
+                                       {"reason", v.reason}});
     }
     for (const MetricChange& m : c.metrics) {
         out["metrics"].push_back(place(m.place));
@@ -151,7 +170,9 @@ std::string comparisonJson(const RunComparison& c) {
                                       {"unit", m.unit},
                                       {"before", finite(m.before)},
                                       {"after", finite(m.after)},
-                                      {"worse", m.worse}});
+                                      {"worse", m.worse},
+                                      {"better", m.better},
+                                      {"size", finite(m.size)}});
     }
     return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
