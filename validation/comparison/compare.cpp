@@ -222,7 +222,7 @@ void listUnpaired(const Run& before, const Run& after, const std::vector<CasePai
 }
 
 [[noreturn]] void refuse(const Run& before, const Run& after, const RunComparison& all) {
-    std::string text = "compare: nothing can be compared, as the runs have ";
+    std::string text = "nothing can be compared, as the runs have ";
     if (all.pairBy == PairBy::Nothing)
         text += "no case (scenario, spec, dt) in common";
     else

@@ -51,6 +51,18 @@ std::string listed(const std::set<std::string>& names) {
     return text.empty() ? "none" : text;
 }
 
+/// Specs of one engine in two runs are paired within a preset where that is possible: two solvers in four presets
+/// are four pairs and not sixteen.
+void keepPresets(std::vector<CasePair>& pairs) {
+    const auto keyOf = [](const CasePair& pair) { return results::pairKey(*pair.before, PairBy::Spec); };
+    const auto isOfOnePreset = [](const CasePair& pair) { return pair.before->preset == pair.after->preset; };
+    std::set<results::PairKey> keys;
+    for (const CasePair& pair : pairs)
+        if (isOfOnePreset(pair)) keys.insert(keyOf(pair));
+    std::erase_if(pairs,
+                  [&](const CasePair& pair) { return !isOfOnePreset(pair) && keys.contains(keyOf(pair)); });
+}
+
 }  // namespace
 
 bool isOneRun(const Run& before, const Run& after) {
@@ -72,6 +84,7 @@ std::vector<CasePair> pairCases(const Run& before, const Run& after, PairBy by) 
             if (!oneRun || isOnce) pairs.push_back({&a, b});
         }
     }
+    if (by == PairBy::Spec && !oneRun) keepPresets(pairs);
     return pairs;
 }
 

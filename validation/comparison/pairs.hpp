@@ -21,7 +21,8 @@ struct CasePair {
 bool isOneRun(const results::Run& before, const results::Run& after);
 
 /// All pairs, in the order of `before`. Within one run each pair appears once: a time step with the next finer
-/// one; of two specs an engine's default preset is `before`, else the case that the run has first.
+/// one; of two specs an engine's default preset is `before`, else the case that the run has first. Of two runs specs of an
+/// engine are paired within their preset where the runs have such.
 std::vector<CasePair> pairCases(const results::Run& before, const results::Run& after, PairBy by);
 
 /// Content of a run, for the message if nothing can be compared: its scenarios, specs and steps.

@@ -71,6 +71,19 @@ TEST(Pairs, SpecsOfAnEngineAreComparedWithItsDefault) {
     }
 }
 
+/// Two settings in two presets, each in a run of its own, are two pairs; presets are compared where they alone differ.
+TEST(Pairs, SpecsOfTwoRunsAreComparedWithinAPreset) {
+    Stored ode = fourWays();
+    std::erase_if(ode.cases, [](const CaseRow& c) { return c.engine != "ode"; });
+    Stored quick = ode;
+    for (CaseRow& c : quick.cases) c.spec += ",stepper=quickstep";
+    const auto c = compareRuns({ode}, {quick}, by(PairBy::Spec));
+    ASSERT_EQ(c.specs.size(), 2u);
+    for (const SpecChange& s : c.specs) EXPECT_EQ(s.specAfter, s.spec + ",stepper=quickstep");
+    EXPECT_EQ(compareRuns({ode}, {ode}, by(PairBy::Spec)).specs.size(), 2u)
+        << "default and matched, either way";
+}
+
 /// A case that nothing can be compared with is listed, in text and JSON; of two runs with its side.
 TEST(Pairs, CasesWithoutAPartnerAreListed) {
     Stored run = fourWays();
