@@ -71,6 +71,28 @@ const char* partnerName(PairBy by) {
 Json finite(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
+Json finite(const std::optional<double>& value) {
+    return value ? finite(*value) : Json(nullptr);
+}
+
+Json specJson(const SpecChange& s, PairBy by) {
+    Json out{{"name", specName(s)}};
+    if (by != PairBy::Nothing) out.update({{"spec", s.spec}, {"spec_after", s.specAfter}});
+    if (by == PairBy::TimeStep) out.update({{"dt", s.dt}, {"dt_after", s.dtAfter}});
+    out.update({{"cases", s.cases},
+                {"better", s.better},
+                {"worse", s.worse},
+                {"same", s.same},
+                {"p_errors", s.pErrors},
+                {"timed", s.timed},
+                {"time_ratio", finite(s.timeRatio)},
+                {"time_interval",
+                 s.timeInterval ? Json::array({s.timeInterval->low, s.timeInterval->high}) : Json(nullptr)},
+                {"p_time", s.pTime},
+                {"mean_time_ratio", finite(s.meanRatio)},
+                {"first_time_ratio", finite(s.firstRatio)}});
+    return out;
+}
 
 }  // namespace
 
@@ -141,21 +163,7 @@ std::string comparisonJson(const RunComparison& c) {
              {"metrics", Json::array()},     {"changed_scenarios", c.changedScenarios},
              {"only_before", c.onlyBefore},  {"only_after", c.onlyAfter},
              {"unpaired", c.unpaired},       {"environment", c.environment}};
-    for (const SpecChange& s : c.specs)
-        out["specs"].push_back(
-            {{"name", specName(s)},
-             {"cases", s.cases},
-             {"better", s.better},
-             {"worse", s.worse},
-             {"same", s.same},
-             {"p_errors", s.pErrors},
-             {"timed", s.timed},
-             {"time_ratio", s.timeRatio ? Json(*s.timeRatio) : Json(nullptr)},
-             {"time_interval",
-              s.timeInterval ? Json::array({s.timeInterval->low, s.timeInterval->high}) : Json(nullptr)},
-             {"p_time", s.pTime},
-             {"mean_time_ratio", s.meanRatio ? Json(*s.meanRatio) : Json(nullptr)},
-             {"first_time_ratio", s.firstRatio ? Json(*s.firstRatio) : Json(nullptr)}});
+    for (const SpecChange& s : c.specs) out["specs"].push_back(specJson(s, c.pairBy));
     for (const VerdictChange& v : c.verdicts) {
         out["verdicts"].push_back(place(v.place));
         out["verdicts"].back().update({{"before", v.before},
