@@ -48,7 +48,7 @@ std::vector<std::string> changesOf(const std::vector<Run>& runs, results::PairBy
     return changes;
 }
 
-std::vector<Run> readHistory(const std::vector<std::string>& folders) {
+std::vector<Run> readHistory(const std::vector<std::string>& folders, results::PairBy by) {
     if (folders.size() < 2)
         throw std::invalid_argument("history: found " + std::to_string(folders.size()) +
                                     " run, expected two or more, the oldest first");
@@ -58,12 +58,17 @@ std::vector<Run> readHistory(const std::vector<std::string>& folders) {
     } catch (const std::runtime_error& error) {
         throw std::invalid_argument(error.what());
     }
+    for (std::size_t i = 1; i < runs.size() && by != results::PairBy::Nothing; ++i)
+        if (fs::equivalent(runs[i - 1].directory, runs[i].directory))
+            throw std::invalid_argument("history --pair: found " + runs[i].directory +
+                                        " twice, expected runs that differ; `rigor compare --pair` compares "
+                                        "cases within a run");
     return runs;
 }
 
 int history(const HistoryArguments& a) {
     const results::PairBy by = *results::parsePairBy(a.pairBy);
-    const std::vector<Run> runs = readHistory(a.runs);
+    const std::vector<Run> runs = readHistory(a.runs, by);
     const std::string csv = report::historyCsv(runs, by);
     const auto changes = changesOf(runs, by);
     const auto replays = report::historyReplays(runs, a.replays, by);

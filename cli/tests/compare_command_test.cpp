@@ -81,6 +81,7 @@ TEST_F(CompareCommand, TheHistoryOfRunsThatDifferOnPurpose) {
     const auto presets =
         rigor("history --pair spec " + path("a") + " " + path("a") + " --out " + path("page"));
     EXPECT_EQ(presets.code, 2) << presets.out;
+    EXPECT_NE(presets.out.find("twice, expected runs that differ"), std::string::npos) << presets.out;
     EXPECT_EQ(rigor("history --pair colour " + runs).code, 2);
 }
 

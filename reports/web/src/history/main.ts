@@ -58,22 +58,21 @@ function lineOf(s: Series, index: number, label: string, of: 'error' | 'time'): 
 }
 
 /** The changes of a scenario, the gravest first. */
-function said(all: Series[], names: ReadonlyMap<Series, string>): Child {
+function said(all: Series[], nameOf: ReturnType<typeof seriesNames>): Child {
   const marks = all.flatMap((s) => marksOf(data, s).map((m) => ({ s, m })));
   marks.sort((a, b) => weightOf(b.m) - weightOf(a.m));
   return listOf(marks, ({ s, m }) => {
     const numbers = m.what === 'time' ? ` (${duration(s.time[m.run - 1])} → ${duration(s.time[m.run])})` : '';
     const text =
       m.what === 'ending' ? `${s.outcome[m.run - 1]} → ${s.outcome[m.run]}` : `${m.what} ${factor(m.ratio)}${numbers}`;
-    return [sign(m.state), `run ${m.run + 1}, ${names.get(s)}: ${text}`];
+    return [sign(m.state), `run ${m.run + 1}, ${nameOf(s, [m.run - 1, m.run])}: ${text}`];
   });
 }
 
 /** `replay`: the case whose runs are shown side by side; `chosen` gets another one. */
 function scenarioNode(all: Series[], replay: string | null, chosen: (key: string | null) => void): HTMLElement {
   const first = all[0] as Series;
-  const names = seriesNames(all, data.pair);
-  const label = (s: Series) => names.get(s) ?? s.label;
+  const nameOf = seriesNames(all, data.pair);
   const timed = all.filter((s) => s.time.some((t) => t !== null));
   const plot = (of: 'error' | 'time', list: Series[], title: string, unit: string) =>
     plotCard({
@@ -83,18 +82,18 @@ function scenarioNode(all: Series[], replay: string | null, chosen: (key: string
       xTitle: 'run',
       wholeX: true,
       xUnit: '',
-      lines: list.map((s) => lineOf(s, all.indexOf(s), label(s), of)),
+      lines: list.map((s) => lineOf(s, all.indexOf(s), nameOf(s), of)),
       zeroY: true,
     });
   const key = all.map((s, i) =>
-    el('span', null, lineSample(palette[i % palette.length] as string, dashOf(i), 2), label(s)),
+    el('span', null, lineSample(palette[i % palette.length] as string, dashOf(i), 2), nameOf(s)),
   );
   return el(
     'article',
     { class: 'case', 'data-scenario': first.scenario },
     el('h3', null, first.scenario, ' ', el('span', { class: 'muted small' }, first.title)),
-    said(all, names),
-    replayBox(names, { runs: data.runs, pair: data.pair, colours: palette }, replay, chosen),
+    said(all, nameOf),
+    replayBox(all, nameOf, { runs: data.runs, pair: data.pair, colours: palette }, replay, chosen),
     el('div', { class: 'lines' }, key),
     el(
       'div',

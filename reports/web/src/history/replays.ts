@@ -66,23 +66,24 @@ async function show(at: HTMLElement, s: Series, { runs, pair, colours }: Shown) 
 }
 
 /**
- * The choice of a case among the named series of a scenario, and its replays; null where there are none. `chosen`: the case that is shown at
+ * The choice of a case among the series of a scenario, and its replays; null where there are none. `chosen`: the case that is shown at
  * once; `changed` gets another one.
  */
 export function replayBox(
-  names: ReadonlyMap<Series, string>,
+  all: readonly Series[],
+  nameOf: (s: Series) => string,
   shown: Shown,
   chosen: string | null,
   changed: (key: string | null) => void,
 ): HTMLElement | null {
-  const cases = replayable([...names.keys()]);
+  const cases = replayable(all);
   if (cases.length === 0) return null;
   const holder = el('div', null);
   const select = el(
     'select',
     { 'aria-label': 'Case to replay' },
     el('option', { value: '' }, 'Replay side by side …'),
-    cases.map((s) => el('option', { value: caseKey(s) }, names.get(s) ?? s.label)),
+    cases.map((s) => el('option', { value: caseKey(s) }, nameOf(s))),
   );
   const showChosen = () => {
     const found = cases.find((s) => caseKey(s) === select.value);

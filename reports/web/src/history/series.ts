@@ -31,20 +31,19 @@ export function ownName(s: Series, run: number, pair: Pair): string {
   return pair === 'dt' ? timeStep(own.dt) : own.label;
 }
 
-/** Names of what the cases of a series have of their own, in the order of the runs: "1/60 s → 1/240 s". */
-export function ownNames(s: Series, pair: Pair): string {
-  const names = s.outcome.map((_, run) => ownName(s, run, pair)).filter(Boolean);
+/** Names of what the cases of some runs have of their own, in the order of the runs: "1/60 s → 1/240 s". */
+export function ownNames(s: Series, pair: Pair, runs: readonly number[]): string {
+  const names = runs.map((run) => ownName(s, run, pair)).filter(Boolean);
   return names.filter((name, i) => name !== names[i - 1]).join(' → ');
 }
 
-/** Names of the series of one scenario, without what they have in common. */
-export function seriesNames(all: readonly Series[], pair: Pair): Map<Series, string> {
+/** Names of the series of one scenario over some runs; by default over all. */
+export function seriesNames(all: readonly Series[], pair: Pair): (s: Series, runs?: readonly number[]) => string {
   const steps = pair === 'dt' ? 1 : new Set(all.map((s) => toNumber(s.dt))).size;
-  const name = (s: Series) => {
-    const own = ownNames(s, pair);
+  return (s, runs = s.outcome.map((_, run) => run)) => {
+    const own = ownNames(s, pair, runs);
     return s.label + (steps > 1 ? `, ${timeStep(s.dt)}` : '') + (own ? `: ${own}` : '');
   };
-  return new Map(all.map((s) => [s, name(s)]));
 }
 
 /**

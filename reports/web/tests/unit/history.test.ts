@@ -110,13 +110,14 @@ test('a series of runs that differ on purpose finds its changes by both places',
 test('lines are named by what the runs have in common and what each has of its own', () => {
   assert.equal(ownName(refined, 0, 'dt'), '1/50 s');
   assert.equal(ownName(refined, 1, 'dt'), '', 'no case');
-  assert.equal(ownNames(refined, 'dt'), '1/50 s → 1/200 s');
-  assert.equal(seriesNames([refined], 'dt').get(refined), 'x: 1/50 s → 1/200 s');
+  assert.equal(ownNames(refined, 'dt', [0, 1, 2]), '1/50 s → 1/200 s');
+  assert.equal(seriesNames([refined], 'dt')(refined), 'x: 1/50 s → 1/200 s');
   const solvers = { ...series, cases: ['pgs', 'pgs', 'xpbd'].map((label) => ({ spec: label, label, dt: 0.01 })) };
-  assert.equal(ownNames(solvers, 'spec'), 'pgs → xpbd', 'the same of two runs is said once');
+  assert.equal(ownNames(solvers, 'spec', [0, 1, 2]), 'pgs → xpbd', 'the same of two runs is said once');
+  assert.equal(seriesNames([solvers], 'spec')(solvers, [1, 2]), 'x: pgs → xpbd', 'one change');
   assert.equal(ownName(series, 0, ''), '');
   const finer = { ...series, dt: 0.005 };
-  assert.equal(seriesNames([series, finer], '').get(finer), 'x, 1/200 s');
+  assert.equal(seriesNames([series, finer], '')(finer), 'x, 1/200 s');
 });
 
 test('runs are shown at the worst error whose time is known, else at the end', () => {
