@@ -7,14 +7,17 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, test } from 'node:test';
 import type { History } from '../../src/history/data.ts';
+import { caseKey, firstMoment } from '../../src/history/series.ts';
 import { makeHistory, makeRunOf, program, reportOf, screenshots, skip, smokeRun } from '../browser.ts';
+
+function dataOf(folder: string): History {
+  const page = readFileSync(join(folder, 'index.html'), 'utf8');
+  return JSON.parse(/id="history-data">(.*?)<\/script>/s.exec(page)?.[1] ?? '') as History;
+}
 
 describe('the history of three runs', { skip }, () => {
   const it = reportOf(makeHistory);
-  const stored = (): History => {
-    const page = readFileSync(join(it.run, 'index.html'), 'utf8');
-    return JSON.parse(/id="history-data">(.*?)<\/script>/s.exec(page)?.[1] ?? '') as History;
-  };
+  const stored = (): History => dataOf(it.run);
 
   test('names the runs, and says of each step what changed', async () => {
     await it.open();
@@ -111,6 +114,17 @@ describe('two runs with their replays', { skip }, () => {
     await it.open(hash);
     await it.page.waitForSelector('.replay .label small:not(:empty)');
     assert.match(await it.text('.replay .label b'), /^run 1, smoke/);
+    it.clean();
+  });
+
+  test('are shown at their end where there is no error, or none whose time is known', async () => {
+    const unknown = dataOf(it.run).series.find(
+      (s) => firstMoment(s, [0, 1]) === Infinity && s.outcome[0] === 'completed' && s.replay.every(Boolean),
+    );
+    assert.ok(unknown);
+    await it.open(`#${new URLSearchParams({ replay: caseKey(unknown) })}`);
+    await it.page.waitForSelector('.replay .label small:not(:empty)');
+    assert.match(await it.text('.replay .label small'), /frame (\d+)\/\1/);
     it.clean();
   });
 });
