@@ -51,7 +51,7 @@ std::vector<Run> readRuns(const std::string& folders) {
 /// Cases that differ on purpose: in one run, or in two.
 validation::RunComparison pairedComparison(const CompareArguments& a) {
     validation::CompareOptions options = a.options;
-    options.pairBy = *validation::parsePairBy(a.pairBy);
+    options.pairBy = *results::parsePairBy(a.pairBy);
     if (a.before == kRecorded || a.after == kRecorded)
         throw std::invalid_argument("--pair: found 'recorded', expected run folders");
     const auto before = readRuns(a.before);
@@ -124,9 +124,10 @@ void addCompare(CLI::App& app, Action& action) {
         ->required();
     command->add_option("AFTER", a->after, "Run folder, or several; with --pair it may be left out");
     command
-        ->add_option("--pair", a->pairBy,
-                     "Compare what differs on purpose, in one run or two: engine (of one preset), spec, dt "
-                     "(in one run each with the next finer)")
+        ->add_option(
+            "--pair", a->pairBy,
+            "Compare what differs on purpose, in one run or two: engine (in one preset), spec (of one "
+            "engine), dt (in one run each with the next finer)")
         ->check(CLI::IsMember({"engine", "spec", "dt"}));
     command
         ->add_option("--tolerance", a->options.tolerance,

@@ -19,21 +19,36 @@ namespace {
 namespace fs = std::filesystem;
 using results::Run;
 
-/// Changes from each run to the next; "" where the two have no case in common.
-std::vector<std::string> changesOf(const std::vector<Run>& runs) {
-    std::vector<std::string> changes;
+struct HistoryArguments {
+    std::vector<std::string> runs;
+    std::string out, pairBy;
+    std::size_t replays = 2;
+};
+
+/// Changes from each run to the next; "" where the two have nothing to compare. Throws std::invalid_argument where the
+/// runs are to differ on purpose and no two do.
+std::vector<std::string> changesOf(const std::vector<Run>& runs, results::PairBy by) {
+    validation::CompareOptions options;
+    options.pairBy = by;
+    std::vector<std::string> changes, refusals;
     for (std::size_t i = 1; i < runs.size(); ++i) {
         try {
-            changes.push_back(
-                validation::comparisonJson(validation::compareRuns({runs[i - 1]}, {runs[i]}, {})));
-        } catch (const std::invalid_argument&) {
+            const auto comparison = validation::compareRuns({runs[i - 1]}, {runs[i]}, options);
+            changes.push_back(validation::comparisonJson(comparison));
+        } catch (const std::invalid_argument& error) {
             changes.emplace_back();
+            refusals.push_back("runs " + std::to_string(i) + " and " + std::to_string(i + 1) + ": " +
+                               error.what());
         }
     }
+    if (by != results::PairBy::Nothing && refusals.size() == changes.size())
+        throw std::invalid_argument("history --pair " + std::string(results::pairByName(by)) + ": " +
+                                    refusals.front());
+    for (const auto& refusal : refusals) std::fprintf(stderr, "rigor: %s\n", refusal.c_str());
     return changes;
 }
 
-int history(const std::vector<std::string>& folders, const fs::path& out, std::size_t newest) {
+std::vector<Run> readHistory(const std::vector<std::string>& folders, results::PairBy by) {
     if (folders.size() < 2)
         throw std::invalid_argument("history: found " + std::to_string(folders.size()) +
                                     " run, expected two or more, the oldest first");
@@ -43,11 +58,25 @@ int history(const std::vector<std::string>& folders, const fs::path& out, std::s
     } catch (const std::runtime_error& error) {
         throw std::invalid_argument(error.what());
     }
+    for (std::size_t i = 1; i < runs.size() && by != results::PairBy::Nothing; ++i)
+        if (fs::equivalent(runs[i - 1].directory, runs[i].directory))
+            throw std::invalid_argument("history --pair: found " + runs[i].directory +
+                                        " twice, expected runs that differ; `rigor compare --pair` compares "
+                                        "cases within a run");
+    return runs;
+}
+
+int history(const HistoryArguments& a) {
+    const results::PairBy by = *results::parsePairBy(a.pairBy);
+    const std::vector<Run> runs = readHistory(a.runs, by);
+    const std::string csv = report::historyCsv(runs, by);
+    const auto changes = changesOf(runs, by);
+    const auto replays = report::historyReplays(runs, a.replays, by);
+    const fs::path out(a.out);
     fs::create_directories(out);
-    const auto replays = report::historyReplays(runs, newest);
     report::writeHistoryReplays(replays, out / "data");
-    report::writeFile(out / "index.html", report::historyPage(runs, changesOf(runs), replays));
-    report::writeFile(out / "history.csv", report::historyCsv(runs));
+    report::writeFile(out / "index.html", report::historyPage(runs, changes, replays, by));
+    report::writeFile(out / "history.csv", csv);
     std::printf("%s\n%s\n", (out / "index.html").c_str(), (out / "history.csv").c_str());
     return kOk;
 }
@@ -55,12 +84,7 @@ int history(const std::vector<std::string>& folders, const fs::path& out, std::s
 }  // namespace
 
 void addHistory(CLI::App& app, Action& action) {
-    struct Arguments {
-        std::vector<std::string> runs;
-        std::string out;
-        std::size_t replays = 2;
-    };
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<HistoryArguments>();
     auto* command =
         app.add_subcommand("history", "Errors and times over several runs on one page, with what changed");
     command->add_option("RUN", a->runs, "Run folders, the oldest first")
@@ -68,11 +92,16 @@ void addHistory(CLI::App& app, Action& action) {
         ->check(CLI::ExistingDirectory);
     command->add_option("--out", a->out, "Folder of the page")->required();
     command
+        ->add_option("--pair", a->pairBy,
+                     "Runs that differ on purpose, each from the next: engine (in one preset), spec (of one "
+                     "engine), dt; each run has one case of a kind")
+        ->check(CLI::IsMember({"engine", "spec", "dt"}));
+    command
         ->add_option(
             "--replays", a->replays,
             "Newest runs whose replays are copied beside the page, to be shown side by side; 0: none")
         ->capture_default_str();
-    command->callback([a, &action] { action = [a] { return history(a->runs, a->out, a->replays); }; });
+    command->callback([a, &action] { action = [a] { return history(*a); }; });
 }
 
 }  // namespace rigor::cli

@@ -60,6 +60,31 @@ TEST_F(CompareCommand, TheHistoryOfRunsIsAPageAndATable) {
     EXPECT_NE(text.find("\"time_ratio\""), std::string::npos) << "the comparison of the two is in the page";
 }
 
+/// Runs with other steps have no case in common: the command says what shows them, and that does.
+TEST_F(CompareCommand, TheHistoryOfRunsThatDifferOnPurpose) {
+    const std::string finer =
+        "validate bouncing_ball slide_and_stop --no-audit -q --dt 1/120 --engines rigor --out ";
+    ASSERT_EQ(rigor(finer + path("b")).code, 0);
+    const std::string runs = path("a") + " " + path("b") + " --out " + path("page");
+    const auto plain = rigor("history " + runs);
+    EXPECT_EQ(plain.code, 0) << plain.out;
+    EXPECT_NE(plain.out.find("rigor history RUN RUN --pair"), std::string::npos) << plain.out;
+    const auto steps = rigor("history --pair dt " + runs);
+    EXPECT_EQ(steps.code, 0) << steps.out;
+    std::ifstream page(path("page/index.html"));
+    const std::string text((std::istreambuf_iterator<char>(page)), {});
+    EXPECT_NE(text.find("\"pair\":\"dt\""), std::string::npos);
+    EXPECT_NE(text.find("\"dt_after\""), std::string::npos) << "the comparison of the two is in the page";
+    const auto engines = rigor("history --pair engine " + runs);
+    EXPECT_EQ(engines.code, 2) << engines.out;
+    EXPECT_NE(engines.out.find("differ in engine alone"), std::string::npos) << engines.out;
+    const auto presets =
+        rigor("history --pair spec " + path("a") + " " + path("a") + " --out " + path("page"));
+    EXPECT_EQ(presets.code, 2) << presets.out;
+    EXPECT_NE(presets.out.find("twice, expected runs that differ"), std::string::npos) << presets.out;
+    EXPECT_EQ(rigor("history --pair colour " + runs).code, 2);
+}
+
 /// A record that says half or twice of what the run gives.
 TEST_F(CompareCommand, AChangeInEitherDirectionIsSeenAgainstTheRecord) {
     ASSERT_EQ(rigor("record " + path("a") + " --out " + path("library/recorded")).code, 0);

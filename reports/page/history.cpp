@@ -3,12 +3,13 @@
 #include "reports/page/history.hpp"
 
 #include <algorithm>
-#include <filesystem>
+#include <functional>
 #include <map>
-#include <tuple>
+#include <set>
 
 #include "reports/encoding/json.hpp"
 #include "reports/model/view_model.hpp"
+#include "reports/page/case_history.hpp"
 #include "reports/page/html.hpp"
 #include "validation/results/grades.hpp"
 #include "validation/results/spec_labels.hpp"
@@ -17,96 +18,12 @@ namespace rigor::report {
 namespace {
 
 using results::CaseRow;
+using results::PairBy;
 using results::Run;
 
-/// A case through the runs; null where a run does not have it.
-struct CaseHistory {
-    const results::ScenarioRow* scenario = nullptr;
-    MainMetric metric;
-    std::vector<const CaseRow*> cases;
-};
+using Labels = std::map<std::string, std::string>;  ///< short names of specs
 
-/// Histories by scenario, spec and time step, in the order in which they first appear.
-std::vector<CaseHistory> historiesOf(const std::vector<Run>& runs) {
-    std::vector<CaseHistory> list;
-    std::map<std::tuple<std::string, std::string, double>, std::size_t> known;
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-        const ViewModel view(runs[r]);
-        std::map<std::string, std::size_t> scenarios;
-        for (std::size_t i = 0; i < runs[r].scenarios.size(); ++i) scenarios[runs[r].scenarios[i].name] = i;
-        for (const CaseRow& c : runs[r].cases) {
-            const auto found = scenarios.find(c.scenario);
-            if (found == scenarios.end()) continue;
-            const auto [at, isNew] = known.emplace(std::tuple(c.scenario, c.spec, c.dt), list.size());
-            if (isNew) list.emplace_back();
-            CaseHistory& history = list[at->second];
-            history.scenario = &runs[r].scenarios[found->second];
-            history.metric = view.mainMetric(found->second);
-            history.cases.resize(runs.size());
-            history.cases[r] = &c;
-        }
-    }
-    return list;
-}
-
-/// The folder's own name, also of "runs/first/".
-std::string folderName(const Run& run) {
-    const std::filesystem::path folder(run.directory);
-    return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
-}
-
-Json runsJson(const std::vector<Run>& runs) {
-    Json list = Json::array();
-    for (const Run& run : runs) {
-        Json versions = Json::object();
-        for (const auto& engine : run.engines)
-            if (engine.problem.empty()) versions[engine.name] = engine.version;
-        list.push_back({{"name", folderName(run)},
-                        {"title", runTitle(run)},
-                        {"started", run.started},
-                        {"command", run.command},
-                        {"cases", run.cases.size()},
-                        {"versions", versions}});
-    }
-    return list;
-}
-
-Json seriesJson(const CaseHistory& history, std::size_t runs, const std::string& label,
-                const HistoryReplays& replays) {
-    const CaseRow* any = nullptr;
-    for (const CaseRow* c : history.cases)
-        if (c != nullptr) any = c;
-    Json out{{"scenario", any->scenario},
-             {"title", history.scenario->title},
-             {"spec", any->spec},
-             {"engine", any->engine},
-             {"label", label},
-             {"dt", number(any->dt)},
-             {"metric", history.metric.name},
-             {"unit", history.metric.unit},
-             {"scene", nullptr}};
-    if (const auto scene = replays.scenes.find(any->scenario); scene != replays.scenes.end())
-        out["scene"] = scene->second;
-    for (const char* key : {"error", "relative", "grade", "outcome", "time", "low", "high", "replay"})
-        out[key] = Json::array();
-    for (std::size_t r = 0; r < runs; ++r) {
-        const CaseRow* c = r < history.cases.size() ? history.cases[r] : nullptr;
-        const auto* metric = c ? findMetric(*c, history.metric.name) : nullptr;
-        const auto* step = c ? stepTiming(*c) : nullptr;
-        out["error"].push_back(metric ? number(metric->value) : Json(nullptr));
-        out["relative"].push_back(c ? number(c->accuracy.relative) : Json(nullptr));
-        out["grade"].push_back(c ? results::gradeName(c->accuracy.grade) : "");
-        out["outcome"].push_back(c ? results::outcomeName(c->outcome) : "");
-        out["time"].push_back(step ? number(step->median) : Json(nullptr));
-        out["low"].push_back(step ? number(step->low) : Json(nullptr));
-        out["high"].push_back(step ? number(step->high) : Json(nullptr));
-        const auto replay = replays.names.find({r, any->scenario, any->dt});
-        out["replay"].push_back(c && replay != replays.names.end() ? Json(replay->second) : Json(nullptr));
-    }
-    return out;
-}
-
-std::map<std::string, std::string> labelsOf(const std::vector<CaseHistory>& histories) {
+Labels labelsOf(const std::vector<CaseHistory>& histories) {
     std::vector<std::string> specs;
     for (const auto& history : histories)
         for (const CaseRow* c : history.cases)
@@ -115,34 +32,107 @@ std::map<std::string, std::string> labelsOf(const std::vector<CaseHistory>& hist
     return results::specLabels(specs);
 }
 
-std::string historyJson(const std::vector<Run>& runs, const std::vector<std::string>& comparisons,
-                        const HistoryReplays& replays) {
-    const auto histories = historiesOf(runs);
-    const auto labels = labelsOf(histories);
-    Json series = Json::array(), changes = Json::array();
-    for (const auto& history : histories) {
-        std::string spec;
-        for (const CaseRow* c : history.cases)
-            if (c != nullptr) spec = c->spec;
-        series.push_back(seriesJson(history, runs.size(), labels.at(spec), replays));
+Json runsJson(const std::vector<Run>& runs, const Labels& labels) {
+    Json list = Json::array();
+    for (const Run& run : runs) {
+        Json versions = Json::object();
+        for (const auto& engine : run.engines)
+            if (engine.problem.empty()) versions[engine.name] = engine.version;
+        std::set<double, std::greater<>> steps;
+        std::set<std::string> specs;
+        for (const CaseRow& c : run.cases) {
+            steps.insert(c.dt);
+            if (const auto label = labels.find(c.spec); label != labels.end()) specs.insert(label->second);
+        }
+        list.push_back({{"name", folderName(run)},
+                        {"title", runTitle(run)},
+                        {"started", run.started},
+                        {"command", run.command},
+                        {"cases", run.cases.size()},
+                        {"steps", steps},
+                        {"specs", specs},
+                        {"versions", versions}});
     }
+    return list;
+}
+
+/// Name of what the cases of a history have in common, beside scenario and time step.
+std::string labelOf(const CaseRow& c, PairBy by, const Labels& labels) {
+    return by == PairBy::Engine ? c.preset : by == PairBy::Spec ? c.engine : labels.at(c.spec);
+}
+
+/// Name of what a case has of its own: its engine, or its spec without the name of the engine.
+std::string ownLabelOf(const CaseRow& c, PairBy by, const Labels& labels) {
+    if (by == PairBy::Engine) return c.engine;
+    const std::string& label = labels.at(c.spec);
+    return label.starts_with(c.engine + " ") ? label.substr(c.engine.size() + 1) : label;
+}
+
+void addCase(Json& out, const CaseHistory& history, const CaseRow* c, const std::string* replay) {
+    const auto* metric = c ? findMetric(*c, history.metric.name) : nullptr;
+    const auto* step = c ? stepTiming(*c) : nullptr;
+    out["error"].push_back(metric ? number(metric->value) : Json(nullptr));
+    out["at"].push_back(metric && metric->at >= 0.0 ? number(metric->at) : Json(nullptr));
+    out["relative"].push_back(c ? number(c->accuracy.relative) : Json(nullptr));
+    out["grade"].push_back(c ? results::gradeName(c->accuracy.grade) : "");
+    out["outcome"].push_back(c ? results::outcomeName(c->outcome) : "");
+    out["time"].push_back(step ? number(step->median) : Json(nullptr));
+    out["low"].push_back(step ? number(step->low) : Json(nullptr));
+    out["high"].push_back(step ? number(step->high) : Json(nullptr));
+    out["replay"].push_back(replay ? Json(*replay) : Json(nullptr));
+}
+
+Json seriesJson(const CaseHistory& history, PairBy by, const Labels& labels, const HistoryReplays& replays) {
+    const CaseRow& any = history.newest();
+    Json out{{"scenario", any.scenario},      {"title", history.scenario->title},  {"spec", any.spec},
+             {"engine", any.engine},          {"label", labelOf(any, by, labels)}, {"dt", number(any.dt)},
+             {"metric", history.metric.name}, {"unit", history.metric.unit},       {"scene", nullptr}};
+    if (const auto scene = replays.scenes.find(any.scenario); scene != replays.scenes.end())
+        out["scene"] = scene->second;
+    for (const char* key : {"error", "at", "relative", "grade", "outcome", "time", "low", "high", "replay"})
+        out[key] = Json::array();
+    for (std::size_t r = 0; r < history.cases.size(); ++r) {
+        const CaseRow* c = history.cases[r];
+        const auto replay = c ? replays.names.find({r, c->scenario, c->dt}) : replays.names.end();
+        addCase(out, history, c, replay == replays.names.end() ? nullptr : &replay->second);
+    }
+    if (by == PairBy::Nothing) return out;
+    out["cases"] = Json::array();
+    for (const CaseRow* c : history.cases)
+        out["cases"].push_back(
+            c ? Json{{"spec", c->spec}, {"label", ownLabelOf(*c, by, labels)}, {"dt", number(c->dt)}}
+              : Json(nullptr));
+    return out;
+}
+
+std::string historyJson(const std::vector<Run>& runs, const std::vector<std::string>& comparisons,
+                        const HistoryReplays& replays, PairBy by) {
+    const auto histories = historiesOf(runs, by);
+    const Labels labels = labelsOf(histories);
+    Json series = Json::array(), changes = Json::array();
+    for (const auto& history : histories) series.push_back(seriesJson(history, by, labels, replays));
     for (const auto& text : comparisons) changes.push_back(text.empty() ? Json(nullptr) : Json::parse(text));
-    const Json page{{"runs", runsJson(runs)}, {"changes", changes}, {"series", series}};
+    const Json page{{"pair", results::pairByName(by)},
+                    {"runs", runsJson(runs, labels)},
+                    {"changes", changes},
+                    {"series", series}};
     return page.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
 
 std::string historyPage(const std::vector<Run>& runs, const std::vector<std::string>& comparisons,
-                        const HistoryReplays& replays) {
-    return htmlHistory(historyJson(runs, comparisons, replays));
+                        const HistoryReplays& replays, PairBy by) {
+    return htmlHistory(historyJson(runs, comparisons, replays, by));
 }
 
-std::string historyCsv(const std::vector<Run>& runs) {
+std::string historyCsv(const std::vector<Run>& runs, PairBy by) {
     std::string out =
-        "run,started,scenario,spec,dt,metric,unit,error,relative_error,grade,outcome,time,time_low,time_"
-        "high\n";
-    for (const auto& history : historiesOf(runs))
+        "run,started,scenario,spec,dt,metric,unit,error,relative_error,grade,outcome,time,time_low,time_high,"
+        "series\n";
+    std::size_t series = 0;
+    for (const auto& history : historiesOf(runs, by)) {
+        ++series;
         for (std::size_t r = 0; r < history.cases.size(); ++r) {
             const CaseRow* c = history.cases[r];
             if (c == nullptr) continue;
@@ -158,10 +148,12 @@ std::string historyCsv(const std::vector<Run>& runs) {
                   text(metric ? std::optional(metric->value) : none), text(c->accuracy.relative),
                   std::string(results::gradeName(c->accuracy.grade)),
                   std::string(results::outcomeName(c->outcome)),
-                  text(step ? std::optional(step->median) : none), text(step ? step->low : none)})
+                  text(step ? std::optional(step->median) : none), text(step ? step->low : none),
+                  text(step ? step->high : none)})
                 out += csvField(field) + ",";
-            out += text(step ? step->high : none) + "\n";
+            out += std::to_string(series) + "\n";
         }
+    }
     return out;
 }
 

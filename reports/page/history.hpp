@@ -8,17 +8,18 @@
 #include <vector>
 
 #include "reports/page/history_replays.hpp"
+#include "validation/results/pairing.hpp"
 #include "validation/results/types.hpp"
 
 namespace rigor::report {
 
 /// The page. `comparisons`: what changed from each run to the next (`rigor compare --json`), "" where the two
-/// have no case in common. `replays`: those that are beside the page.
+/// have nothing to compare. `replays`: those that are beside the page. `by`: the deliberate difference of the runs; throws
+/// as historiesOf().
 std::string historyPage(const std::vector<results::Run>& runs, const std::vector<std::string>& comparisons,
-                        const HistoryReplays& replays = {});
+                        const HistoryReplays& replays = {}, results::PairBy by = results::PairBy::Nothing);
 
-/// A row for each case of each run: run, started, scenario, spec, dt, metric, error, relative error, grade,
-/// outcome, median time of a step with its interval.
-std::string historyCsv(const std::vector<results::Run>& runs);
+/// A row for each case of each run (reports/FORMATS.md).
+std::string historyCsv(const std::vector<results::Run>& runs, results::PairBy by = results::PairBy::Nothing);
 
 }  // namespace rigor::report

@@ -17,17 +17,20 @@ namespace rigor::report {
 namespace {
 
 namespace fs = std::filesystem;
+using results::PairBy;
 using results::Run;
 
 struct Found {
     std::size_t run;
+    double dt;
     fs::path from;
     std::string name;
 };
-using ByCase = std::map<std::pair<std::string, double>, std::vector<Found>>;
+/// Replays by scenario and time step [s], 0 where the runs differ in that.
+using Groups = std::map<std::pair<std::string, double>, std::vector<Found>>;
 
-/// Replay files beside the report of a run, by scenario and time step.
-void findReplays(const Run& run, std::size_t index, ByCase& found) {
+/// Replay files beside the report of a run.
+void findReplays(const Run& run, std::size_t index, PairBy by, Groups& found) {
     const Run shown = withoutDerivedRuns(run);
     const ViewModel view(shown);
     for (std::size_t i = 0; i < shown.scenarios.size(); ++i) {
@@ -36,8 +39,8 @@ void findReplays(const Run& run, std::size_t index, ByCase& found) {
             const std::string name = replayName(i, j);
             const fs::path from = fs::path(run.directory) / "data" / (name + ".js");
             if (fs::exists(from))
-                found[{shown.scenarios[i].name, steps[j]}].push_back(
-                    {index, from, "run-" + std::to_string(index) + "-" + name});
+                found[{shown.scenarios[i].name, by == PairBy::TimeStep ? 0.0 : steps[j]}].push_back(
+                    {index, steps[j], from, "run-" + std::to_string(index) + "-" + name});
         }
     }
 }
@@ -54,22 +57,22 @@ std::string contentOf(const fs::path& from) {
 
 }  // namespace
 
-HistoryReplays historyReplays(const std::vector<Run>& runs, std::size_t newest) {
-    ByCase found;
+HistoryReplays historyReplays(const std::vector<Run>& runs, std::size_t newest, PairBy by) {
+    Groups found;
     for (std::size_t r = runs.size() - std::min(newest, runs.size()); r < runs.size(); ++r)
-        findReplays(runs[r], r, found);
+        findReplays(runs[r], r, by, found);
     std::map<std::string, std::string> texts;  // the newest run comes last and its files stay
     for (const Run& run : runs)
         for (const auto& scenario : run.scenarios) texts[scenario.name] = scenario.text;
     HistoryReplays out;
     for (const auto& [key, all] : found) {
-        if (all.size() < 2) continue;
-        const auto& [scenario, dt] = key;
+        if (all.front().run == all.back().run) continue;
+        const std::string& scenario = key.first;
         std::map<std::string, std::string> known;  // content to name: runs with the same frames share a file
         for (const Found& f : all) {
             const auto [same, isNew] = known.emplace(contentOf(f.from), f.name);
             if (isNew) out.files.push_back({f.from, f.name});
-            out.names[{f.run, scenario, dt}] = same->second;
+            out.names[{f.run, scenario, f.dt}] = same->second;
         }
         const std::string scene = "scene-" + std::to_string(out.scenes.size());
         if (out.scenes.emplace(scenario, scene).second) out.texts[scene] = texts[scenario];

@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "validation/results/pairing.hpp"
 #include "validation/results/types.hpp"
 
 namespace rigor::report {
@@ -28,8 +29,10 @@ struct HistoryReplays {
     std::map<std::string, std::string> texts;   ///< the scenario files, by the names of their data files
 };
 
-/// Replays of the `newest` last runs that at least two of them have. Throws std::runtime_error where one cannot be read.
-HistoryReplays historyReplays(const std::vector<results::Run>& runs, std::size_t newest);
+/// Replays of the `newest` last runs that at least two of them have: of the same scenario at the same time step, or at
+/// any where the runs differ in that. Throws std::runtime_error where one cannot be read.
+HistoryReplays historyReplays(const std::vector<results::Run>& runs, std::size_t newest,
+                              results::PairBy by = results::PairBy::Nothing);
 
 /// Copies the files and writes the scenarios. Throws std::runtime_error where one cannot be read or written.
 void writeHistoryReplays(const HistoryReplays& replays, const std::filesystem::path& folder);

@@ -9,6 +9,7 @@
 //   report_tool synthetic FOLDER  the report of the synthetic run, with its bad endings, and of a synthetic study
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -113,20 +114,34 @@ int synthesiseBench(const fs::path& folder) {
     return 0;
 }
 
-/// The record of `rigor compare --json` on the change below.
+/// The record of `rigor compare --json` on the change below, beside fourteen small ones and a case that its engine does
+/// not support any more.
 std::string changeOf(const rigor::results::CaseRow& c, const rigor::results::MetricRow& m) {
     using nlohmann::json;
     const json place{{"scenario", c.scenario}, {"spec", c.spec}, {"dt", c.dt}};
-    json metric = place;
-    metric.update({{"metric", m.name},
-                   {"unit", m.unit},
-                   {"before", m.value},
-                   {"after", 4.0 * m.value},
-                   {"worse", true}});
+    const auto metricOf = [&](const std::string& name, double factor) {
+        json metric = place;
+        metric.update({{"metric", name},
+                       {"unit", m.unit},
+                       {"before", m.value},
+                       {"after", factor * m.value},
+                       {"worse", true},
+                       {"better", false},
+                       {"size", std::log(factor)}});
+        return metric;
+    };
     json spec{{"name", c.spec}, {"cases", 20}, {"better", 0}, {"worse", 1}, {"same", 19}, {"p_errors", 1.0}};
     spec.update({{"timed", 20}, {"time_ratio", 1.2}, {"time_interval", {1.1, 1.3}}, {"p_time", 0.02}});
-    json change{{"worse", true}, {"specs", {spec}}, {"metrics", {metric}}, {"verdicts", json::array()}};
-    for (const char* key : {"changed_scenarios", "only_before", "only_after", "environment"})
+    json verdict = place;
+    verdict.update({{"before", "pass"},
+                    {"after", "unsupported"},
+                    {"worse", false},
+                    {"better", false},
+                    {"reason", "no such joint"}});
+    json change{
+        {"worse", true}, {"specs", {spec}}, {"metrics", {metricOf(m.name, 4.0)}}, {"verdicts", {verdict}}};
+    for (int i = 0; i < 14; ++i) change["metrics"].push_back(metricOf("metric_" + std::to_string(i), 1.1));
+    for (const char* key : {"changed_scenarios", "only_before", "only_after", "unpaired", "environment"})
         change[key] = json::array();
     return change.dump();
 }

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <tuple>
 
+#include "validation/comparison/regression.hpp"
+#include "validation/results/values.hpp"
 #include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
@@ -43,11 +47,10 @@ std::vector<Cases> casesOf(const std::vector<Run>& runs) {
     return all;
 }
 
-/// Rank from good to bad; known deviations and unsupported cases rank as passing.
+/// Rank from good to bad.
 int badness(Verdict verdict) {
     switch (verdict) {
         case Verdict::Pass:
-        case Verdict::Unsupported:
             return 0;
         case Verdict::KnownDeviation:
         case Verdict::NoReference:
@@ -80,25 +83,50 @@ const MetricRow* find(const CaseRow& c, const MetricRow& like) {
     return nullptr;
 }
 
-void compareMetrics(const CasePair& pair, const CompareOptions& options, SpecChange& spec,
-                    RunComparison& all) {
+/// Size of a change (MetricChange::size). From nothing to rounding is no large change, whatever the ratio.
+double sizeOf(const CasePair& pair, const MetricRow& before, const MetricRow& after,
+              const CompareOptions& options) {
+    if (!std::isfinite(before.value) || !std::isfinite(after.value))
+        return std::numeric_limits<double>::infinity();
+    const double least =
+        std::max({options.floor, roundingOf(*pair.before, before), roundingOf(*pair.after, after)});
+    return std::abs(
+        std::log(std::max(std::abs(after.value), least) / std::max(std::abs(before.value), least)));
+}
+
+void compareMetrics(const CasePair& pair, const results::ScenarioRow* scenario, const CompareOptions& options,
+                    SpecChange& spec, RunComparison& all) {
     for (const MetricRow& m : pair.before->metrics) {
         const MetricRow* other = find(*pair.after, m);
-        if (m.kind == "cost" || m.kind == "outcome" || other == nullptr) continue;
+        if (m.kind == "cost" || m.kind == "outcome" || other == nullptr || !m.subject.empty()) continue;
         const double ratio = growth(m.value, other->value, options);
-        if (m.subject.empty()) ++(ratio > 1.0 ? spec.worse : ratio < 1.0 ? spec.better : spec.same);
-        if (ratio != 1.0 && m.subject.empty())
-            all.metrics.push_back(
-                {placeOf(pair), m.name, m.subject, m.unit, m.value, other->value, ratio > 1.0});
+        const bool isJudged = scenario == nullptr || results::isError(*other, *scenario) ||
+                              !std::isfinite(m.value) || !std::isfinite(other->value);
+        if (isJudged) ++(ratio > 1.0 ? spec.worse : ratio < 1.0 ? spec.better : spec.same);
+        if (ratio != 1.0)
+            all.metrics.push_back({placeOf(pair), m.name, m.subject, m.unit, m.value, other->value,
+                                   isJudged && ratio > 1.0, isJudged && ratio < 1.0,
+                                   sizeOf(pair, m, *other, options)});
     }
 }
 
 void compareVerdicts(const CasePair& pair, RunComparison& all) {
     const Verdict before = pair.before->verdict, after = pair.after->verdict;
     if (before == after) return;
+    const bool isRefused = before == Verdict::Unsupported || after == Verdict::Unsupported;
+    const int change = isRefused ? 0 : badness(after) - badness(before);
     all.verdicts.push_back({placeOf(pair), results::verdictName(before), results::verdictName(after),
-                            pair.after->reason, badness(after) > badness(before),
-                            badness(after) < badness(before)});
+                            pair.after->reason, change > 0, change < 0, std::abs(change)});
+}
+
+/// Worse before better before other, each by size.
+void sortChanges(RunComparison& all) {
+    std::stable_sort(all.verdicts.begin(), all.verdicts.end(), [](const auto& a, const auto& b) {
+        return std::tuple(a.worse, a.better, a.size) > std::tuple(b.worse, b.better, b.size);
+    });
+    std::stable_sort(all.metrics.begin(), all.metrics.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.worse || a.better, a.size) > std::pair(b.worse || b.better, b.size);
+    });
 }
 
 /// One way to say what a step costs [s].
@@ -173,19 +201,28 @@ std::vector<std::string> changedScenarios(const Run& before, const Run& after) {
     return names;
 }
 
-/// Cases that only one of two runs has.
+/// Cases that are in no pair: those that only one of two runs has, or that have no other to differ from.
 void listUnpaired(const Run& before, const Run& after, const std::vector<CasePair>& pairs,
                   RunComparison& all) {
     std::set<const CaseRow*> paired;
     for (const CasePair& pair : pairs) paired.insert({pair.before, pair.after});
-    for (const CaseRow& c : before.cases)
-        if (!paired.contains(&c)) all.onlyBefore.push_back(nameOf(c));
-    for (const CaseRow& c : after.cases)
-        if (!paired.contains(&c)) all.onlyAfter.push_back(nameOf(c));
+    const auto list = [&](const Run& run, const char* side, std::vector<std::string>& names) {
+        for (const CaseRow& c : run.cases)
+            if (!paired.contains(&c)) names.push_back(nameOf(c) + side);
+    };
+    if (all.pairBy == PairBy::Nothing) {
+        list(before, "", all.onlyBefore);
+        list(after, "", all.onlyAfter);
+    } else if (&before == &after) {
+        list(before, "", all.unpaired);
+    } else {
+        list(before, ", before", all.unpaired);
+        list(after, ", after", all.unpaired);
+    }
 }
 
 [[noreturn]] void refuse(const Run& before, const Run& after, const RunComparison& all) {
-    std::string text = "compare: nothing can be compared, as the runs have ";
+    std::string text = "nothing can be compared, as the runs have ";
     if (all.pairBy == PairBy::Nothing)
         text += "no case (scenario, spec, dt) in common";
     else
@@ -196,14 +233,11 @@ void listUnpaired(const Run& before, const Run& after, const std::vector<CasePai
         for (const std::string& name : all.changedScenarios) text += " " + name;
     }
     text += "\n  before: " + contentsOf(before) + "\n  after:  " + contentsOf(after);
-    if (all.pairBy == PairBy::Nothing) text += "\n  --pair engine|spec|dt compares what differs on purpose";
+    if (all.pairBy == PairBy::Nothing)
+        text +=
+            "\n  --pair engine|spec|dt compares what differs on purpose; "
+            "`rigor history RUN RUN --pair engine|spec|dt --out FOLDER` shows it on a page";
     throw std::invalid_argument(text);
-}
-
-double sizeOf(const MetricChange& m) {
-    const double ratio = std::abs(m.after) / std::abs(m.before);
-    return std::isfinite(ratio) && ratio > 0.0 ? std::abs(std::log(ratio))
-                                               : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -223,10 +257,13 @@ RunComparison compareRuns(const std::vector<Run>& before, const std::vector<Run>
     all.pairBy = options.pairBy;
     all.runsBefore = before.size();
     all.runsAfter = after.size();
-    compareEnvironments(before.front(), after.front(), all);
-    all.changedScenarios = changedScenarios(before.front(), after.front());
-    const auto pairs = pairCases(before.front(), after.front(), options.pairBy);
-    if (options.pairBy == PairBy::Nothing) listUnpaired(before.front(), after.front(), pairs, all);
+    const Run& one = before.front();
+    const bool isSame = options.pairBy != PairBy::Nothing && isOneRun(one, after.front());
+    const Run& other = isSame ? one : after.front();
+    compareEnvironments(one, other, all);
+    all.changedScenarios = changedScenarios(one, other);
+    const auto pairs = pairCases(one, other, options.pairBy);
+    listUnpaired(one, other, pairs, all);
     const auto casesBefore = casesOf(before), casesAfter = casesOf(after);
     using Place = std::tuple<std::string, std::string, double, double>;
     std::map<Place, SpecChange> specs;
@@ -242,17 +279,16 @@ RunComparison compareRuns(const std::vector<Run>& before, const std::vector<Run>
         std::tie(spec.spec, spec.specAfter, spec.dt, spec.dtAfter) = place;
         ++spec.cases;
         compareVerdicts(pair, all);
-        compareMetrics(pair, options, spec, all);
+        compareMetrics(pair, results::scenarioOf(other, a.scenario), options, spec, all);
         times[place].add(casesBefore, casesAfter, pair);
     }
-    if (specs.empty()) refuse(before.front(), after.front(), all);
+    if (specs.empty()) refuse(one, other, all);
     for (auto& [place, spec] : specs) {
         spec.pErrors = signTest(spec.better, spec.worse);
         summariseTimes(times[place], spec);
         all.specs.push_back(spec);
     }
-    std::stable_sort(all.metrics.begin(), all.metrics.end(),
-                     [](const MetricChange& a, const MetricChange& b) { return sizeOf(a) > sizeOf(b); });
+    sortChanges(all);
     return all;
 }
 

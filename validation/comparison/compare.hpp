@@ -33,7 +33,10 @@ struct MetricChange {
     ComparedPlace place;
     std::string metric, subject, unit;
     double before = 0.0, after = 0.0;
-    bool worse = false;  ///< further from zero, or not finite any more
+    /// Further from zero, or not finite any more; the reverse. Neither for a number that is no error (results::isError).
+    bool worse = false, better = false;
+    /// |ln(after / before)|, where both count as no less than rounding; infinite if one is not finite.
+    double size = 0.0;
 };
 
 /// A case that ends or is judged differently.
@@ -42,6 +45,7 @@ struct VerdictChange {
     std::string before, after, reason;
     bool worse = false,
          better = false;  ///< neither between a run and one that an engine can not take part in
+    int size = 0;         ///< distance of the two in the order from good to bad
 };
 
 /// One engine spec over all cases that both have, or one pair of specs or of time steps over all scenarios.
@@ -62,12 +66,14 @@ struct SpecChange {
 struct RunComparison {
     PairBy pairBy = PairBy::Nothing;
     std::vector<SpecChange> specs;
-    std::vector<VerdictChange> verdicts;
-    std::vector<MetricChange> metrics;               ///< changes by size, largest first
+    std::vector<VerdictChange> verdicts;  ///< worse, better, other; each by size, largest first
+    std::vector<MetricChange> metrics;    ///< errors by size, largest first; then numbers that are no errors
     std::vector<std::string> onlyBefore, onlyAfter;  ///< "scenario spec dt"
-    std::vector<std::string> changedScenarios;       ///< scenarios whose physics differ: their numbers are
-                                                     ///< not compared
-    std::vector<std::string> environment;            ///< "key: before -> after"
+    /// Cases with no case to be paired with: "scenario spec dt", of two runs with ", before" or ", after".
+    std::vector<std::string> unpaired;
+    std::vector<std::string> changedScenarios;  ///< scenarios whose physics differ: their numbers are
+                                                ///< not compared
+    std::vector<std::string> environment;       ///< "key: before -> after"
     int runsBefore = 0, runsAfter = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace rigor::validation {
 namespace {
@@ -14,26 +15,19 @@ namespace {
 using results::CaseRow;
 using results::Run;
 
-bool arePaired(const CaseRow& a, const CaseRow& b, PairBy by) {
-    const bool sameStep = a.dt == b.dt, sameSpec = a.spec == b.spec;
-    switch (by) {
-        case PairBy::Nothing:
-            return sameSpec && sameStep;
-        case PairBy::Engine:
-            return sameStep && a.engine != b.engine && a.preset == b.preset;
-        case PairBy::Spec:
-            return sameStep && !sameSpec;
-        case PairBy::TimeStep:
-            return sameSpec && !sameStep;
-    }
-    return false;
-}
-
 /// True if no third case has a time step between those of the two; `a` is the coarser one.
 bool areNeighbours(const CaseRow& a, const CaseRow& b, const std::vector<const CaseRow*>& all) {
     return a.dt > b.dt && std::none_of(all.begin(), all.end(), [&](const CaseRow* c) {
                return c->spec == a.spec && c->dt < a.dt && c->dt > b.dt;
            });
+}
+
+/// True if `a` is the case before `b` in their pair of one run.
+bool comesFirst(const CaseRow& a, const CaseRow& b, PairBy by) {
+    const auto rank = [&](const CaseRow& c) {
+        return std::pair(by == PairBy::Spec && !results::isDefaultSpec(c), c.position);
+    };
+    return rank(a) < rank(b);
 }
 
 using ByScenario = std::map<std::string, std::vector<const CaseRow*>>;
@@ -57,34 +51,40 @@ std::string listed(const std::set<std::string>& names) {
     return text.empty() ? "none" : text;
 }
 
-}  // namespace
-
-const char* pairByName(PairBy by) {
-    constexpr const char* kNames[] = {"", "engine", "spec", "dt"};
-    return kNames[static_cast<std::size_t>(by)];
+/// Specs of one engine in two runs are paired within a preset where that is possible: two solvers in four presets
+/// are four pairs and not sixteen.
+void keepPresets(std::vector<CasePair>& pairs) {
+    const auto keyOf = [](const CasePair& pair) { return results::pairKey(*pair.before, PairBy::Spec); };
+    const auto isOfOnePreset = [](const CasePair& pair) { return pair.before->preset == pair.after->preset; };
+    std::set<results::PairKey> keys;
+    for (const CasePair& pair : pairs)
+        if (isOfOnePreset(pair)) keys.insert(keyOf(pair));
+    std::erase_if(pairs,
+                  [&](const CasePair& pair) { return !isOfOnePreset(pair) && keys.contains(keyOf(pair)); });
 }
 
-std::optional<PairBy> parsePairBy(const std::string& name) {
-    for (const PairBy by : {PairBy::Nothing, PairBy::Engine, PairBy::Spec, PairBy::TimeStep})
-        if (name == pairByName(by)) return by;
-    return std::nullopt;
+}  // namespace
+
+bool isOneRun(const Run& before, const Run& after) {
+    return &before == &after || (!before.directory.empty() && before.directory == after.directory);
 }
 
 std::vector<CasePair> pairCases(const Run& before, const Run& after, PairBy by) {
-    const bool oneRun =
-        &before == &after || (!before.directory.empty() && before.directory == after.directory);
+    const bool oneRun = by != PairBy::Nothing && isOneRun(before, after);
     const ByScenario others = byScenario(after);
     std::vector<CasePair> pairs;
     for (const CaseRow& a : before.cases) {
         const auto candidates = others.find(a.scenario);
         if (candidates == others.end()) continue;
         for (const CaseRow* b : candidates->second) {
-            if (!arePaired(a, *b, by)) continue;
-            if (oneRun && by == PairBy::TimeStep && !areNeighbours(a, *b, candidates->second)) continue;
-            if (oneRun && (by == PairBy::Engine || by == PairBy::Spec) && a.position >= b->position) continue;
-            pairs.push_back({&a, b});
+            if (results::pairKey(a, by) != results::pairKey(*b, by) || !results::differBy(a, *b, by))
+                continue;
+            const bool isOnce =
+                by == PairBy::TimeStep ? areNeighbours(a, *b, candidates->second) : comesFirst(a, *b, by);
+            if (!oneRun || isOnce) pairs.push_back({&a, b});
         }
     }
+    if (by == PairBy::Spec && !oneRun) keepPresets(pairs);
     return pairs;
 }
 

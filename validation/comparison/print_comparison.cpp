@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "validation/comparison/compare.hpp"
 
@@ -61,8 +62,36 @@ void addSome(std::string& text, const std::string& title, const List& list, std:
     if (list.size() > most) text += "  and " + std::to_string(list.size() - most) + " more\n";
 }
 
+/// The case that another one would be compared with.
+const char* partnerName(PairBy by) {
+    constexpr const char* kNames[] = {"run", "engine of their preset", "spec of their engine", "time step"};
+    return kNames[static_cast<std::size_t>(by)];
+}
+
 Json finite(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+Json finite(const std::optional<double>& value) {
+    return value ? finite(*value) : Json(nullptr);
+}
+
+Json specJson(const SpecChange& s, PairBy by) {
+    Json out{{"name", specName(s)}};
+    if (by != PairBy::Nothing) out.update({{"spec", s.spec}, {"spec_after", s.specAfter}});
+    if (by == PairBy::TimeStep) out.update({{"dt", s.dt}, {"dt_after", s.dtAfter}});
+    out.update({{"cases", s.cases},
+                {"better", s.better},
+                {"worse", s.worse},
+                {"same", s.same},
+                {"p_errors", s.pErrors},
+                {"timed", s.timed},
+                {"time_ratio", finite(s.timeRatio)},
+                {"time_interval",
+                 s.timeInterval ? Json::array({s.timeInterval->low, s.timeInterval->high}) : Json(nullptr)},
+                {"p_time", s.pTime},
+                {"mean_time_ratio", finite(s.meanRatio)},
+                {"first_time_ratio", finite(s.firstRatio)}});
+    return out;
 }
 
 }  // namespace
@@ -90,24 +119,33 @@ std::string comparisonText(const RunComparison& c, const CompareOptions& options
                stepName(x.place.dt, x.place.dtAfter);
     };
     const std::string changed = c.pairBy == PairBy::Nothing ? "changed" : "differ";
+    const auto state = [](const auto& x) {
+        return x.worse ? "worse   " : x.better ? "better  " : "other   ";
+    };
     addSome(text, "Verdicts that " + changed, c.verdicts, most, [&](const VerdictChange& v) {
-        return std::string(v.worse    ? "worse   "
-                           : v.better ? "better  "
-                                      : "other   ") +
-               where(v) + ": " + v.before + " -> " + v.after +
+        return state(v) + where(v) + ": " + v.before + " -> " + v.after +
                (v.reason.empty() ? "" : " (" + v.reason + ")");
     });
-    addSome(text, "Errors that " + changed + " by more than " + number(100.0 * options.tolerance) + " %",
-            c.metrics, most, [&](const MetricChange& m) {
-                return std::string(m.worse ? "worse   " : "better  ") + where(m) + ": " + m.metric + " " +
-                       number(m.before) + " -> " + number(m.after) + (m.unit == "1" ? "" : " " + m.unit);
-            });
+    const auto metric = [&](const MetricChange& m) {
+        return state(m) + where(m) + ": " + m.metric + " " + number(m.before) + " -> " + number(m.after) +
+               (m.unit == "1" ? "" : " " + m.unit);
+    };
+    const std::string share = changed + " by more than " + number(100.0 * options.tolerance) + " %";
+    const auto others = std::partition_point(c.metrics.begin(), c.metrics.end(),
+                                             [](const MetricChange& m) { return m.worse || m.better; });
+    addSome(text, "Errors that " + share, std::span(c.metrics.begin(), others), most, metric);
+    addSome(text, "Other numbers that " + share + ", neither better nor worse",
+            std::span(others, c.metrics.end()), most, metric);
     const auto plain = [](const std::string& line) { return line; };
     addSome(text, "Scenarios whose files differ, not compared", c.changedScenarios, most, plain);
     addSome(text, "Only before", c.onlyBefore, most, plain);
     addSome(text, "Only after", c.onlyAfter, most, plain);
+    addSome(text, std::string("Cases without another ") + partnerName(c.pairBy) + ", not compared",
+            c.unpaired, most, plain);
     addSome(text, "Other environment", c.environment, most, plain);
-    if (c.verdicts.empty() && c.metrics.empty()) text += "No verdict and no error changed.\n";
+    if (c.verdicts.empty() && others == c.metrics.begin())
+        text += std::string("No verdict and no error ") +
+                (c.pairBy == PairBy::Nothing ? "changed" : "differs") + ".\n";
     return text;
 }
 
@@ -124,26 +162,15 @@ std::string comparisonJson(const RunComparison& c) {
              {"specs", Json::array()},       {"verdicts", Json::array()},
              {"metrics", Json::array()},     {"changed_scenarios", c.changedScenarios},
              {"only_before", c.onlyBefore},  {"only_after", c.onlyAfter},
-             {"environment", c.environment}};
-    for (const SpecChange& s : c.specs)
-        out["specs"].push_back(
-            {{"name", specName(s)},
-             {"cases", s.cases},
-             {"better", s.better},
-             {"worse", s.worse},
-             {"same", s.same},
-             {"p_errors", s.pErrors},
-             {"timed", s.timed},
-             {"time_ratio", s.timeRatio ? Json(*s.timeRatio) : Json(nullptr)},
-             {"time_interval",
-              s.timeInterval ? Json::array({s.timeInterval->low, s.timeInterval->high}) : Json(nullptr)},
-             {"p_time", s.pTime},
-             {"mean_time_ratio", s.meanRatio ? Json(*s.meanRatio) : Json(nullptr)},
-             {"first_time_ratio", s.firstRatio ? Json(*s.firstRatio) : Json(nullptr)}});
+             {"unpaired", c.unpaired},       {"environment", c.environment}};
+    for (const SpecChange& s : c.specs) out["specs"].push_back(specJson(s, c.pairBy));
     for (const VerdictChange& v : c.verdicts) {
         out["verdicts"].push_back(place(v.place));
-        out["verdicts"].back().update(
-            {{"before", v.before}, {"after", v.after}, {"worse", v.worse}, {"reason", v.reason}});
+        out["verdicts"].back().update({{"before", v.before},
+                                       {"after", v.after},
+                                       {"worse", v.worse},
+                                       {"better", v.better},
+                                       {"reason", v.reason}});
     }
     for (const MetricChange& m : c.metrics) {
         out["metrics"].push_back(place(m.place));
@@ -151,7 +178,9 @@ std::string comparisonJson(const RunComparison& c) {
                                       {"unit", m.unit},
                                       {"before", finite(m.before)},
                                       {"after", finite(m.after)},
-                                      {"worse", m.worse}});
+                                      {"worse", m.worse},
+                                      {"better", m.better},
+                                      {"size", finite(m.size)}});
     }
     return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

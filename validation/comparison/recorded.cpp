@@ -27,12 +27,6 @@ fs::path fileOf(const fs::path& folder, const results::EngineRow& engine) {
     return folder / (engine.name + "-" + engine.version + ".csv");
 }
 
-const results::ScenarioRow* scenarioOf(const Run& run, const std::string& name) {
-    for (const auto& s : run.scenarios)
-        if (s.name == name) return &s;
-    return nullptr;
-}
-
 bool isNamed(const results::ScenarioRow& scenario, const MetricRow& m) {
     return m.subject.empty() &&
            std::find(scenario.metrics.begin(), scenario.metrics.end(), m.name) != scenario.metrics.end();

@@ -29,12 +29,6 @@ std::string shownNumber(double value) {
     return text;
 }
 
-double roundingOf(const CaseRow& row, const MetricRow& metric) {
-    const auto precision = row.settings.find("precision");
-    const bool isSingle = precision != row.settings.end() && precision->second == "f32";
-    return (isSingle ? kRoundingSingle : kRoundingDouble) * metric.scale.value_or(1.0);
-}
-
 Change changeOf(const CaseRow& row, const MetricRow& now, const RecordedMetric& old) {
     const auto magnitude = [](double a, double b) { return std::abs(a) < std::abs(b); };
     const double low = std::abs(*std::min_element(old.values.begin(), old.values.end(), magnitude));
@@ -82,6 +76,12 @@ Change worstChange(const CaseRow& row, const RecordedCase& old, bool isChaotic) 
 }
 
 }  // namespace
+
+double roundingOf(const CaseRow& row, const MetricRow& metric) {
+    const auto precision = row.settings.find("precision");
+    const bool isSingle = precision != row.settings.end() && precision->second == "f32";
+    return (isSingle ? kRoundingSingle : kRoundingDouble) * metric.scale.value_or(1.0);
+}
 
 void compareWithRecord(const Record& record, const results::ScenarioRow& scenario, CaseRow& row) {
     row.regression = Regression::NoRecord;

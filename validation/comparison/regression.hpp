@@ -16,6 +16,9 @@ inline constexpr double kSameShare = 0.01;
 /// double and single precision (2^-53 and 2^-24 over some 1e4 to 1e6 operations that depend on each other).
 inline constexpr double kRoundingDouble = 1e-9, kRoundingSingle = 1e-6;
 
+/// Rounding of a metric of a case, in its unit.
+double roundingOf(const results::CaseRow& row, const results::MetricRow& metric);
+
 /// Sets regression, regressionReason and the `recorded` of the metrics. A number is unchanged within the
 /// range of those on record, widened by kSameShare of the larger and by the rounding of the case's precision;
 /// worse when farther from zero or lost. For scenes without an exact solution, whose motion is chaotic, the

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "validation/results/values.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -11,6 +12,18 @@ const MetricRow* wholeScene(const CaseRow& row, const std::string& metric) {
     for (const MetricRow& m : row.metrics)
         if (m.name == metric && m.subject.empty()) return &m;
     return nullptr;
+}
+
+const ScenarioRow* scenarioOf(const Run& run, const std::string& name) {
+    for (const ScenarioRow& scenario : run.scenarios)
+        if (scenario.name == name) return &scenario;
+    return nullptr;
+}
+
+bool isError(const MetricRow& metric, const ScenarioRow& scenario) {
+    if (metric.kind == "cost" || metric.kind == "outcome") return false;
+    return metric.kind != "rest" || !scenario.reference.empty() || metric.bound.has_value() ||
+           std::find(scenario.metrics.begin(), scenario.metrics.end(), metric.name) != scenario.metrics.end();
 }
 
 std::optional<double> steppingTime(const CaseRow& row) {

@@ -16,6 +16,14 @@ namespace rigor::results {
 /// The metric of the whole scene; null when the case has none.
 const MetricRow* wholeScene(const CaseRow& row, const std::string& metric);
 
+/// The scenario of this name; null where the run has none.
+const ScenarioRow* scenarioOf(const Run& run, const std::string& name);
+
+/// True if a metric is an error, whose ideal is zero. Costs and outcomes are none. Nor is the motion left at the
+/// end of a scene (kind rest) for which nothing says that it comes to rest: the scenario has no reference, does
+/// not name the metric and sets it no bound.
+bool isError(const MetricRow& metric, const ScenarioRow& scenario);
+
 /// Wall time of all steps [s]: the median of a step times their number. Empty where it was not measured.
 std::optional<double> steppingTime(const CaseRow& row);
 

@@ -4,43 +4,20 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "validation/comparison/recorded.hpp"
+#include "validation/comparison/tests/example_runs.hpp"
 
 namespace rigor::validation {
 namespace {
 
-using results::CaseRow;
 using Stored = results::Run;
 using results::Verdict;
-
-/// Eight scenarios, one engine, an error of 0.1 and a step of 1 us in each.
-Stored exampleRun() {
-    Stored run;
-    run.environment = {{"cpu", "one"}, {"date", "today"}};
-    run.engines = {{"ode", "ODE", "0.16", "f64", "", ""}};
-    for (int i = 0; i < 8; ++i) {
-        results::ScenarioRow s;
-        s.name = "s" + std::to_string(i);
-        s.text = "{}";
-        s.metrics = {"position_max"};
-        run.scenarios.push_back(s);
-        CaseRow c;
-        c.scenario = s.name;
-        c.spec = "ode";
-        c.engine = "ode";
-        c.dt = 0.01;
-        c.metrics = {{"position_max", "", "m", "exact", 0.1, -1.0, {}, {}, {}, ""},
-                     {"position_max", "block", "m", "exact", 0.1, -1.0, {}, {}, {}, ""},
-                     {"mean_contacts", "", "1", "cost", 4.0, -1.0, {}, {}, {}, ""}};
-        c.timings = {{"step", 1e-6, 1e-6, 1e-6, 1e-4, 100, 0.0}};
-        run.cases.push_back(c);
-    }
-    return run;
-}
 
 TEST(Compare, ARunIsEqualToItself) {
     const auto c = compareRuns({exampleRun()}, {exampleRun()});
@@ -99,6 +76,84 @@ TEST(Compare, Verdicts) {
     EXPECT_FALSE(refused.verdicts[0].worse || refused.verdicts[0].better)
         << "what can not be run is no success";
     EXPECT_NE(comparisonText(refused, {}, 5).find("other   "), std::string::npos);
+    const auto listed = nlohmann::json::parse(comparisonJson(refused)).at("verdicts").at(0);
+    EXPECT_FALSE(listed.at("worse"));
+    EXPECT_FALSE(listed.at("better"));
+    Stored failed = exampleRun();
+    failed.cases[3].verdict = Verdict::Fail;
+    EXPECT_FALSE(compareRuns({failed}, {after}).verdicts.at(0).better);
+    EXPECT_FALSE(compareRuns({after}, {failed}).verdicts.at(0).worse) << "nor is a first result a loss";
+    EXPECT_TRUE(nlohmann::json::parse(comparisonJson(compareRuns({failed}, {exampleRun()})))
+                    .at("verdicts")
+                    .at(0)
+                    .at("better"));
+}
+
+TEST(Compare, VerdictsAreListedByTheirWeight) {
+    Stored before = exampleRun(), after = exampleRun();
+    after.cases[0].verdict = Verdict::Unsupported;
+    before.cases[1].verdict = Verdict::Fail;
+    before.cases[2].verdict = Verdict::Crashed;
+    after.cases[3].verdict = Verdict::Fail;
+    after.cases[4].verdict = Verdict::Crashed;
+    std::string order;
+    for (const VerdictChange& v : compareRuns({before}, {after}).verdicts) order += v.place.scenario + " ";
+    EXPECT_EQ(order, "s4 s3 s2 s1 s0 ");
+}
+
+/// A change from nothing to rounding has an infinite ratio and is not large; a lost number is.
+TEST(Compare, ErrorsAreListedByTheirSize) {
+    Stored before = exampleRun(), after = exampleRun();
+    before.cases[0].metrics[0].value = 0.0;
+    after.cases[0].metrics[0].value = 3e-9;
+    after.cases[1].metrics[0].value = 1.0;
+    before.cases[2].metrics[0].value = 0.0;
+    after.cases[3].metrics[0].value = std::numeric_limits<double>::infinity();
+    before.cases[4].metrics[0].value = 0.0;
+    after.cases[4].metrics[0].value = 4e-7;
+    before.cases[4].settings["precision"] = "f32";
+    std::string order;
+    const auto c = compareRuns({before}, {after});
+    for (const MetricChange& m : c.metrics) order += m.place.scenario + " ";
+    EXPECT_EQ(order, "s3 s2 s1 s0 s4 ") << "lost, from nothing, tenfold, rounding in double and in single";
+    const auto listed = nlohmann::json::parse(comparisonJson(c)).at("metrics");
+    EXPECT_TRUE(listed.at(0).at("size").is_null());
+    EXPECT_NEAR(listed.at(2).at("size").get<double>(), std::log(10.0), 1e-12);
+}
+
+/// Motion that is left where nothing says that it ends is a number, and no error.
+TEST(Compare, WhatIsNoErrorIsNeitherBetterNorWorse) {
+    Stored before = exampleRun();
+    for (auto& c : before.cases) c.metrics[0].name = "kinetic_energy_final";
+    for (auto& c : before.cases) c.metrics[0].kind = "rest";
+    for (auto& s : before.scenarios) s.metrics.clear();
+    before.scenarios[1].metrics = {"kinetic_energy_final"};
+    before.scenarios[2].reference = "static_equilibrium";
+    before.cases[3].metrics[0].bound = 1.0;
+    Stored after = before;
+    for (std::size_t i = 0; i < 5; ++i) after.cases[i].metrics[0].value = i == 4 ? 1e6 : 0.2;
+    const auto c = compareRuns({before}, {after});
+    std::string worse, other;
+    for (const MetricChange& m : c.metrics) (m.worse ? worse : other) += m.place.scenario + " ";
+    EXPECT_EQ(worse, "s1 s2 s3 ") << "named, with an exact solution, with a bound";
+    EXPECT_EQ(other, "s4 s0 ");
+    EXPECT_TRUE(c.metrics[3].place.scenario == "s4" && !c.metrics[3].better)
+        << "errors first, whatever the size";
+    EXPECT_EQ(c.specs[0].worse, 3);
+    EXPECT_EQ(c.specs[0].better, 0);
+    const std::string text = comparisonText(c, {}, 5);
+    EXPECT_NE(text.find("Errors that changed by more than 1 % (3)"), std::string::npos) << text;
+    EXPECT_NE(
+        text.find("Other numbers that changed by more than 1 %, neither better nor worse (2)\n  other   s4"),
+        std::string::npos)
+        << text;
+    for (Stored* run : {&before, &after}) run->cases.erase(run->cases.begin() + 1, run->cases.begin() + 4);
+    const auto neutral = compareRuns({before}, {after});
+    EXPECT_FALSE(becameWorse(neutral));
+    EXPECT_NE(comparisonText(neutral, {}, 5).find("No verdict and no error changed"), std::string::npos);
+    after.cases[0].metrics[0].value = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(becameWorse(compareRuns({before}, {after})))
+        << "a number that is lost is worse, whichever it is";
 }
 
 /// 20 % slower in every case: shown. A time that is slower in half the cases and faster in half is not
@@ -148,103 +203,6 @@ TEST(Compare, WhatCannotBeComparedIsSaid) {
     EXPECT_EQ(c.onlyAfter, std::vector<std::string>{"s1 ode dt=0.02"});
     EXPECT_EQ(c.environment, std::vector<std::string>{"cpu: one -> another"});
     EXPECT_EQ(c.specs[0].cases, 6);
-}
-
-/// exampleRun() with Bullet beside ODE in two presets, at two steps, Bullet's errors half of ODE's.
-Stored fourWays() {
-    Stored run = exampleRun();
-    run.cases.resize(1);
-    const CaseRow one = run.cases[0];
-    run.cases.clear();
-    for (const double dt : {0.02, 0.01, 0.005})
-        for (const char* engine : {"ode", "bullet"})
-            for (const char* preset : {"default", "matched"}) {
-                CaseRow c = one;
-                c.engine = engine;
-                c.preset = preset;
-                c.spec = std::string(engine) + ":preset=" + preset;
-                c.dt = dt;
-                c.position = run.cases.size();
-                c.metrics[0].value = (c.engine == "ode" ? 1.0 : 0.5) * dt;
-                run.cases.push_back(c);
-            }
-    return run;
-}
-
-CompareOptions by(PairBy pairBy) {
-    CompareOptions options;
-    options.pairBy = pairBy;
-    return options;
-}
-
-TEST(Compare, TwoEnginesOfOneRun) {
-    const std::vector<Stored> run{fourWays()};
-    const auto c = compareRuns(run, run, by(PairBy::Engine));
-    ASSERT_EQ(c.specs.size(), 2u) << "ode beside bullet in each preset, once";
-    for (const SpecChange& s : c.specs) {
-        EXPECT_EQ(s.spec.substr(0, 3), "ode");
-        EXPECT_EQ(s.specAfter.substr(0, 6), "bullet");
-        EXPECT_EQ(s.spec.substr(4), s.specAfter.substr(7)) << "one preset";
-        EXPECT_EQ(s.cases, 3);
-        EXPECT_EQ(s.better, 3);
-    }
-    for (const MetricChange& m : c.metrics) EXPECT_DOUBLE_EQ(m.after / m.before, 0.5);
-    EXPECT_TRUE(c.onlyBefore.empty() && c.onlyAfter.empty());
-    EXPECT_NE(comparisonText(c, {}, 5).find("ode:preset=default -> bullet:preset=default"),
-              std::string::npos);
-}
-
-TEST(Compare, TwoEnginesOfTwoRuns) {
-    Stored ode = fourWays(), bullet = ode;
-    std::erase_if(ode.cases, [](const CaseRow& c) { return c.engine != "ode"; });
-    std::erase_if(bullet.cases, [](const CaseRow& c) { return c.engine != "bullet"; });
-    const auto c = compareRuns({bullet}, {ode}, by(PairBy::Engine));
-    ASSERT_EQ(c.specs.size(), 2u);
-    EXPECT_EQ(c.specs[0].spec, "bullet:preset=default");
-    EXPECT_EQ(c.specs[0].worse, 3);
-}
-
-TEST(Compare, TwoSpecsAndTwoSteps) {
-    const std::vector<Stored> run{fourWays()};
-    EXPECT_EQ(compareRuns(run, run, by(PairBy::Spec)).specs.size(), 6u) << "every two of four, once";
-    const auto steps = compareRuns(run, run, by(PairBy::TimeStep));
-    ASSERT_EQ(steps.specs.size(), 8u) << "of each of four specs two pairs of neighbours";
-    for (const SpecChange& s : steps.specs) {
-        EXPECT_EQ(s.spec, s.specAfter);
-        EXPECT_DOUBLE_EQ(s.dt / s.dtAfter, 2.0);
-        EXPECT_EQ(s.better, 1);
-    }
-}
-
-std::string refusalOf(const Stored& before, const Stored& after, PairBy pairBy) {
-    try {
-        (void)compareRuns({before}, {after}, by(pairBy));
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
-}
-
-TEST(Compare, NothingInCommonIsRefusedWithWhatEachHas) {
-    Stored after = exampleRun();
-    for (auto& c : after.cases) {
-        c.spec = "bullet";
-        c.engine = "bullet";
-    }
-    const std::string text = refusalOf(exampleRun(), after, PairBy::Nothing);
-    EXPECT_NE(text.find("no case (scenario, spec, dt) in common"), std::string::npos) << text;
-    EXPECT_NE(text.find("before: scenarios: s0, s1, s2, s3, s4, s5 and 2 more; engines: ode; dt: 0.01"),
-              std::string::npos)
-        << text;
-    EXPECT_NE(text.find("engines: bullet"), std::string::npos) << text;
-    EXPECT_NE(text.find("--pair"), std::string::npos) << text;
-    EXPECT_EQ(refusalOf(exampleRun(), after, PairBy::Engine), "");
-    EXPECT_NE(refusalOf(exampleRun(), exampleRun(), PairBy::TimeStep).find("differ in dt alone"),
-              std::string::npos);
-    Stored changed = exampleRun();
-    for (auto& s : changed.scenarios) s.text = "{\"changed\": 1}";
-    EXPECT_NE(refusalOf(exampleRun(), changed, PairBy::Nothing).find("other physics: s0 s1"),
-              std::string::npos);
 }
 
 class Recorded : public ::testing::Test {

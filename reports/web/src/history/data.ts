@@ -10,10 +10,22 @@ export interface HistoryRun {
   started: string;
   command: string;
   cases: number;
+  steps: number[]; // time steps [s], coarsest first
+  specs: string[]; // short names of its specs
   versions: Record<string, string>; // versions of the engines
 }
 
-/** A case through the runs: a value for each run, null where it has none. */
+/** The case of one run in a series of cases that differ on purpose. */
+export interface OwnCase {
+  spec: string;
+  label: string; // name of its engine (engine), short name of its spec without the engine
+  dt: Maybe;
+}
+
+/**
+ * A case through the runs: a value for each run, null where it has none. With a `Pair` spec, engine and dt are those of the
+ * newest run that has a case, and `label` names the preset (engine), the engine (spec) or the spec (dt).
+ */
 export interface Series {
   scenario: string;
   title: string;
@@ -24,6 +36,7 @@ export interface Series {
   metric: string;
   unit: string;
   error: Maybe[];
+  at: Maybe[]; // time of the largest contribution to the error [s]; null: not known
   relative: Maybe[];
   grade: string[];
   outcome: string[]; // "" where the run does not have the case
@@ -32,6 +45,22 @@ export interface Series {
   high: Maybe[];
   scene: string | null; // name of the data file of the scenario; null: no replays are beside the page
   replay: (string | null)[]; // name of the data file of a run's replay
+  cases?: (OwnCase | null)[]; // cases of the runs, if there is a pair
+}
+
+/** Place of a change; with a `Pair` also that of the later run. */
+export interface Place {
+  scenario: string;
+  spec: string;
+  dt: number;
+  spec_after?: string;
+  dt_after?: number;
+}
+
+/** Neither worse nor better: of a case that an engine does not support, of a number that is no error. */
+export interface Judged {
+  worse: boolean;
+  better: boolean;
 }
 
 /** Changes from a run to the next. */
@@ -39,6 +68,10 @@ export interface Change {
   worse: boolean;
   specs: {
     name: string;
+    spec?: string; // spec of the earlier run, if there is a pair
+    spec_after?: string;
+    dt?: number; // time step of the earlier run [s], if they differ on purpose
+    dt_after?: number;
     cases: number;
     better: number;
     worse: number;
@@ -49,33 +82,22 @@ export interface Change {
     time_interval: [low: number, high: number] | null;
     p_time: number;
   }[];
-  verdicts: {
-    scenario: string;
-    spec: string;
-    dt: number;
-    before: string;
-    after: string;
-    worse: boolean;
-    reason: string;
-  }[];
-  metrics: {
-    scenario: string;
-    spec: string;
-    dt: number;
-    metric: string;
-    unit: string;
-    before: Maybe;
-    after: Maybe;
-    worse: boolean;
-  }[];
+  verdicts: (Place & Judged & { before: string; after: string; reason: string })[]; // the gravest first
+  /** The largest first. `size`: logarithm of the ratio, null where a number is lost or new. */
+  metrics: (Place & Judged & { metric: string; unit: string; before: Maybe; after: Maybe; size: number | null })[];
   changed_scenarios: string[]; // scenarios whose physics differ
   only_before: string[];
   only_after: string[];
+  unpaired: string[]; // cases without another one, if there is a pair
   environment: string[]; // "key: before -> after"
 }
 
+/** Deliberate difference of the runs; "": none. */
+export type Pair = '' | 'engine' | 'spec' | 'dt';
+
 export interface History {
+  pair: Pair;
   runs: HistoryRun[];
-  changes: (Change | null)[]; // changes from run i to i + 1; null: no case in common
+  changes: (Change | null)[]; // changes from run i to i + 1; null: nothing to compare
   series: Series[];
 }

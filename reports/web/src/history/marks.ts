@@ -4,51 +4,62 @@
 // Changes of a case and their size: errors by the comparison of the runs, times by more than a tenth where the
 // intervals of the two medians have no value in common: a median varies from run to run by more than within one.
 import { toNumber } from '../common/format.ts';
-import type { History, Series } from './data.ts';
+import type { History, Judged, Series } from './data.ts';
+import { isOf } from './series.ts';
+
+export type State = 'worse' | 'better' | 'other';
 
 export interface Mark {
   run: number; // index of the later run
   what: 'error' | 'time' | 'ending';
   ratio: number; // after over before; NaN where there is none
-  worse: boolean;
+  size: number; // |ln ratio|, of errors with rounding as the least value; infinite for a number that is lost or new
+  state: State;
 }
 
 const small = 1e-12;
 const leastFactor = 1.1; // least factor of times
 
+export const stateOf = ({ worse, better }: Judged): State => (worse ? 'worse' : better ? 'better' : 'other');
+
 /** Ratio of two errors; of one that was nothing, infinity. */
 const ratioOf = (before: number, after: number): number =>
   Math.abs(before) < small ? (Math.abs(after) < small ? 1 : Infinity) : Math.abs(after) / Math.abs(before);
+
+function timeMark(s: Series, run: number): Mark | null {
+  const [low, high] = [toNumber(s.low[run]), toNumber(s.high[run])];
+  const [lowBefore, highBefore] = [toNumber(s.low[run - 1]), toNumber(s.high[run - 1])];
+  const ratio = toNumber(s.time[run]) / toNumber(s.time[run - 1]);
+  const size = Math.abs(Math.log(ratio));
+  if (!(low > highBefore || high < lowBefore) || !(size > Math.log(leastFactor))) return null;
+  return { run, what: 'time', ratio, size, state: ratio > 1 ? 'worse' : 'better' };
+}
 
 export function marksOf({ changes }: History, s: Series): Mark[] {
   const marks: Mark[] = [];
   for (let run = 1; run < s.outcome.length; ++run) {
     const change = changes[run - 1];
-    const same = (x: { scenario: string; spec: string; dt: number }) =>
-      x.scenario === s.scenario && x.spec === s.spec && x.dt === toNumber(s.dt);
-    const ended = change?.verdicts.find(same);
-    if (ended) marks.push({ run, what: 'ending', ratio: Number.NaN, worse: ended.worse });
-    const error = change?.metrics.find((m) => same(m) && m.metric === s.metric);
+    const ended = change?.verdicts.find((v) => isOf(s, v, run));
+    if (ended) marks.push({ run, what: 'ending', ratio: Number.NaN, size: Infinity, state: stateOf(ended) });
+    const error = change?.metrics.find((m) => m.metric === s.metric && isOf(s, m, run));
     if (error) {
       const ratio = ratioOf(toNumber(error.before), toNumber(error.after));
-      marks.push({ run, what: 'error', ratio, worse: error.worse });
+      marks.push({ run, what: 'error', ratio, size: error.size ?? Infinity, state: stateOf(error) });
     }
-    const [low, high] = [toNumber(s.low[run]), toNumber(s.high[run])];
-    const [lowBefore, highBefore] = [toNumber(s.low[run - 1]), toNumber(s.high[run - 1])];
-    const ratio = toNumber(s.time[run]) / toNumber(s.time[run - 1]);
-    const isApart = low > highBefore || high < lowBefore;
-    if (isApart && Math.abs(Math.log(ratio)) > Math.log(leastFactor)) {
-      marks.push({ run, what: 'time', ratio, worse: ratio > 1 });
-    }
+    const time = timeMark(s, run);
+    if (time) marks.push(time);
   }
   return marks;
 }
 
-/** Weight of the changes of a scenario: endings before errors before times, by factors. */
-export function weight(marks: Mark[]): number {
-  const of = ({ what, ratio }: Mark) => {
-    const factor = Number.isFinite(ratio) && ratio > 0 ? Math.abs(Math.log(ratio)) : 20;
-    return what === 'ending' ? 1000 : what === 'error' ? 30 + factor : Math.min(20, factor);
-  };
-  return Math.max(0, ...marks.map(of));
+const gravity: Record<State, number> = { worse: 2, better: 1, other: 0 };
+
+/** Weight of one change: endings before errors before other numbers before times, each by its size. */
+export function weightOf({ what, state, size }: Mark): number {
+  if (what === 'ending') return 1000 + gravity[state];
+  if (what === 'time') return Math.min(20, size);
+  return Math.min(50, size) + (state === 'other' ? 30 : 100);
 }
+
+/** Weight of the gravest change of a scenario; 0 for none. */
+export const weight = (marks: readonly Mark[]): number => Math.max(0, ...marks.map(weightOf));

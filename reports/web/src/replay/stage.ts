@@ -100,6 +100,7 @@ export class ReplayStage implements ReplayActions {
     this.#stage.append(this.#notes.element, this.#labels.element, this.#pointed.element);
     this.#chosen = this.#firstChoice();
     this.player.end = Math.max(0, ...sources.map((s) => s.times[s.times.length - 1] ?? 0));
+    if (context.cursor.time.value > this.player.end) context.cursor.time.set(this.player.end, this);
     if (this.player.end < 1.2) this.player.speed = 0.25;
     this.controls = new Controls(this);
     root.append(this.controls.element);

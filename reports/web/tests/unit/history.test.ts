@@ -3,7 +3,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Change, History, Series } from '../../src/history/data.ts';
-import { marksOf, weight } from '../../src/history/marks.ts';
+import { type Mark, marksOf, weight } from '../../src/history/marks.ts';
+import { firstMoment, isOf, ownName, ownNames, seriesNames } from '../../src/history/series.ts';
 
 const series: Series = {
   scenario: 's',
@@ -15,6 +16,7 @@ const series: Series = {
   metric: 'position_max',
   unit: 'm',
   error: [1, 1, 2],
+  at: [null, null, null],
   relative: [],
   grade: [],
   outcome: ['completed', 'completed', 'completed'],
@@ -32,38 +34,95 @@ const nothing: Change = {
   changed_scenarios: [],
   only_before: [],
   only_after: [],
+  unpaired: [],
   environment: [],
 };
 const place = { scenario: 's', spec: 'x', dt: 0.01 };
-const error = { ...place, metric: 'position_max', unit: 'm', before: 1, after: 2, worse: true };
-const historyOf = (...changes: (Change | null)[]): History => ({ runs: [], series: [series], changes });
+const error = {
+  ...place,
+  metric: 'position_max',
+  unit: 'm',
+  before: 1,
+  after: 2,
+  worse: true,
+  better: false,
+  size: Math.log(2),
+};
+const historyOf = (...changes: (Change | null)[]): History => ({ pair: '', runs: [], series: [series], changes });
 
 test('times change where their intervals have no value in common', () => {
   const marks = marksOf(historyOf(null, nothing), series);
   assert.deepEqual(
-    marks.map(({ run, what, worse }) => ({ run, what, worse })),
-    [{ run: 2, what: 'time', worse: false }],
+    marks.map(({ run, what, state }) => ({ run, what, state })),
+    [{ run: 2, what: 'time', state: 'better' }],
   );
   assert.ok(Math.abs((marks[0]?.ratio ?? 0) - 0.5 / 1.05) < 1e-12);
 });
 
 test('errors and endings change where the comparison of the runs says so', () => {
-  const ended = { ...place, before: 'pass', after: 'crashed', worse: true, reason: '' };
+  const ended = { ...place, before: 'pass', after: 'crashed', worse: true, better: false, reason: '' };
   const others = { ...error, metric: 'energy_drift' };
   const change = { ...nothing, metrics: [others, { ...error, dt: 0.02 }, error], verdicts: [ended] };
   const marks = marksOf(historyOf(nothing, change), { ...series, low: [], high: [] });
   assert.deepEqual(marks, [
-    { run: 2, what: 'ending', ratio: Number.NaN, worse: true },
-    { run: 2, what: 'error', ratio: 2, worse: true },
+    { run: 2, what: 'ending', ratio: Number.NaN, size: Infinity, state: 'worse' },
+    { run: 2, what: 'error', ratio: 2, size: Math.log(2), state: 'worse' },
   ]);
   const none = marksOf(historyOf(nothing, { ...nothing, metrics: [{ ...error, before: 0 }] }), { ...series, low: [] });
   assert.equal(none[0]?.ratio, Infinity, 'from nothing');
 });
 
-test('endings weigh more than errors, errors more than times', () => {
-  const mark = (what: 'error' | 'time' | 'ending', ratio: number) => weight([{ run: 1, what, ratio, worse: true }]);
+test('what is neither worse nor better is a state of its own', () => {
+  const refused = { ...place, before: 'pass', after: 'unsupported', worse: false, better: false, reason: '' };
+  const states = (verdict: typeof refused) =>
+    marksOf(historyOf(nothing, { ...nothing, verdicts: [verdict] }), { ...series, low: [] }).map((m) => m.state);
+  assert.deepEqual(states(refused), ['other']);
+  assert.deepEqual(states({ ...refused, better: true }), ['better']);
+  assert.deepEqual(states({ ...refused, worse: true }), ['worse']);
+});
+
+test('endings weigh more than errors, errors more than other numbers and times, by their size', () => {
+  const mark = (what: Mark['what'], size: number, state: Mark['state'] = 'worse') =>
+    weight([{ run: 1, what, ratio: Math.exp(size), size, state }]);
   assert.equal(weight([]), 0);
-  assert.ok(mark('time', 1e9) < mark('error', 1.02));
-  assert.ok(mark('error', 1.02) < mark('error', 5));
-  assert.ok(mark('error', Infinity) < mark('ending', Number.NaN));
+  assert.ok(mark('time', 20) < mark('error', 0.02, 'other'));
+  assert.ok(mark('error', 40, 'other') < mark('error', 0.02));
+  assert.ok(mark('error', 0.02) < mark('error', 2));
+  assert.ok(mark('error', Infinity) < mark('ending', Infinity, 'other'));
+  assert.ok(mark('ending', Infinity, 'better') < mark('ending', Infinity));
+});
+
+const refined: Series = {
+  ...series,
+  dt: 0.005,
+  cases: [{ spec: 'x', label: 'x', dt: 0.02 }, null, { spec: 'x', label: 'x', dt: 0.005 }],
+};
+
+test('a series of runs that differ on purpose finds its changes by both places', () => {
+  const [coarse, none, fine] = [{ ...place, dt: 0.02 }, { spec_after: 'x' }, { spec_after: 'x', dt_after: 0.005 }];
+  const two: Series = { ...refined, cases: [refined.cases?.[0] ?? null, refined.cases?.[2] ?? null] };
+  assert.ok(isOf(two, { ...coarse, ...fine }, 1));
+  assert.ok(!isOf(two, { ...coarse, ...none, dt_after: 0.01 }, 1));
+  assert.ok(!isOf(two, { ...coarse, ...fine, spec_after: 'y' }, 1));
+  assert.ok(isOf(series, place, 1), 'the same case of two runs');
+});
+
+test('lines are named by what the runs have in common and what each has of its own', () => {
+  assert.equal(ownName(refined, 0, 'dt'), '1/50 s');
+  assert.equal(ownName(refined, 1, 'dt'), '', 'no case');
+  assert.equal(ownNames(refined, 'dt', [0, 1, 2]), '1/50 s → 1/200 s');
+  assert.equal(seriesNames([refined], 'dt')(refined), 'x: 1/50 s → 1/200 s');
+  const solvers = { ...series, cases: ['pgs', 'pgs', 'xpbd'].map((label) => ({ spec: label, label, dt: 0.01 })) };
+  assert.equal(ownNames(solvers, 'spec', [0, 1, 2]), 'pgs → xpbd', 'the same of two runs is said once');
+  assert.equal(seriesNames([solvers], 'spec')(solvers, [1, 2]), 'x: pgs → xpbd', 'one change');
+  assert.equal(ownName(series, 0, ''), '');
+  const finer = { ...series, dt: 0.005 };
+  assert.equal(seriesNames([series, finer], '')(finer), 'x, 1/200 s');
+});
+
+test('runs are shown at the worst error whose time is known, else at the end', () => {
+  const known = { ...series, error: [1, 5, 2], at: [0.1, 0.5, null] };
+  assert.equal(firstMoment(known, [0, 1, 2]), 0.5);
+  assert.equal(firstMoment(known, [0, 2]), 0.1, 'among the runs that are shown');
+  assert.equal(firstMoment(series, [0, 1]), Infinity);
 });
