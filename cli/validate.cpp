@@ -59,14 +59,16 @@ void addScenario(Selection& selection, const std::string& name, const ValidateAr
     const bool isOwn = !selection.shard || selection.shard->hasScenario(selection.scenarios.size());
     auto loaded = isOwn ? selection.references.load(name, arguments.overrides)
                         : scenario::loadScenario(scenario::findScenario(name), arguments.overrides);
-    for (const auto& present : selection.scenarios) {
+    auto& steps = loaded.scenario.timeSteps;
+    if (maxTimeSteps > 0 && steps.size() > static_cast<std::size_t>(maxTimeSteps)) steps.resize(maxTimeSteps);
+    for (auto& present : selection.scenarios) {
         if (present.first.name != loaded.scenario.name) continue;
-        if (present.second == loaded.text) return;
-        throw std::invalid_argument("'" + name + "': another scenario of this run has the name '" +
-                                    loaded.scenario.name + "'; rename one or use two runs");
+        if (present.second != loaded.text)
+            throw std::invalid_argument("'" + name + "': another scenario of this run has the name '" +
+                                        loaded.scenario.name + "'; rename one or use two runs");
+        if (steps.size() > present.first.timeSteps.size()) present.first.timeSteps = steps;
+        return;  // the longer list of time steps is run of a scenario that is given twice
     }
-    if (maxTimeSteps > 0 && loaded.scenario.timeSteps.size() > static_cast<std::size_t>(maxTimeSteps))
-        loaded.scenario.timeSteps.resize(maxTimeSteps);
     selection.scenarios.emplace_back(std::move(loaded.scenario), std::move(loaded.text));
 }
 

@@ -425,6 +425,32 @@ TEST(CommandLine, SuitesSayInHowManyOrdersTheyAreRun) {
     EXPECT_TRUE(ordersOf(suite + (folder / "b").string() + " --orders 1").is_null());
 }
 
+/// A suite of first time steps alone does not shorten what is given by itself, before or behind it.
+TEST(CommandLine, AScenarioThatIsGivenByItselfHasAllItsTimeSteps) {
+    const auto folder = freshFolder("suite-and-scenario");
+    const std::string suite = (folder / "suite.json").string();
+    std::ofstream(suite)
+        << R"({"rigor_suite": 1, "name": "short", "scenarios": ["elastic_collision", "free_flight"],
+        "engines": ["rigor:preset=matched"], "max_time_steps": 1})";
+    int runs = 0;
+    const auto casesOf = [&](const std::string& arguments) {
+        const Result result = rigor("validate " + arguments + " --no-audit -q --json --out " +
+                                        (folder / std::to_string(++runs)).string(),
+                                    false);
+        const auto summary = nlohmann::json::parse(result.out);
+        std::map<std::string, int> count;
+        for (const auto& c : summary.at("cases")) ++count[c.at("name")];
+        return count;
+    };
+    const auto alone = casesOf("free_flight --engines rigor:preset=matched");
+    ASSERT_GT(alone.at("free_flight"), 1);
+    for (const std::string& arguments : {suite + " free_flight", "free_flight " + suite}) {
+        const auto both = casesOf(arguments);
+        EXPECT_EQ(both.at("free_flight"), alone.at("free_flight")) << arguments;
+        EXPECT_EQ(both.at("elastic_collision"), 1) << arguments;
+    }
+}
+
 /// No reference can be computed in a tenth of a millisecond, which a process needs to begin.
 TEST(CommandLine, AReferenceThatDoesNotFinishIsReportedByItsName) {
     const auto folder = freshFolder("slow_reference");

@@ -7,7 +7,7 @@ import { duration, ratio, toNumber } from '../../common/format.ts';
 import { isLost } from '../cells.ts';
 import type { Mechanism } from '../data.ts';
 import { type Placed, placed, wrongIn } from '../ranking.ts';
-import { engineLink, run, scenarioLink, scenarioOf, verdictText } from '../run.ts';
+import { dimensionNote, engineLink, run, scenarioLink, scenarioOf, verdictText } from '../run.ts';
 import { folded, gradeBar, gradeChip, headRow, looseHeadRow, panel, scroll } from '../widgets.ts';
 import { filterScoreboard } from './filters.ts';
 
@@ -59,6 +59,15 @@ function answer(m: Mechanism, list: Placed[]): Child {
   );
 }
 
+/** "In none of these: box2d (2D only)": engines that the table leaves out; null where it has all. */
+function absentText(list: Placed[]): Child {
+  const placedEngines = new Set(list.map((s) => s.column.engine));
+  const absent = [...new Set(run.columns.map((c) => c.engine))].filter((name) => !placedEngines.has(name));
+  if (absent.length === 0) return null;
+  const names = absent.map((name) => name + (dimensionNote(name) ? ` (${dimensionNote(name)})` : ''));
+  return el('p', { class: 'muted small', 'data-absent': absent.join(' ') }, `In none of these: ${names.join(', ')}.`);
+}
+
 function card(task: Mechanism): HTMLElement {
   const list = placed(task, run.columns);
   return el(
@@ -77,6 +86,7 @@ function card(task: Mechanism): HTMLElement {
         list.map((s) => line(task, s)),
       ),
     ),
+    absentText(list),
     el(
       'button',
       { class: 'button noprint', onclick: () => filterScoreboard({ task: task.name }) },
