@@ -88,14 +88,22 @@ WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec
     whole.live.trajectory = options.given ? options.given->back(run.trajectory) : std::move(run.trajectory);
     if (run.nonFinite.empty()) {
         if (options.onSimulated) options.onSimulated();
-        if (!options.withoutReference)
-            whole.reference = referenceOf(scenario, options.makeReference).reference;
-        evaluateCase({scenario, whole.live.trajectory, whole.reference.get(), whole.scheme}, row);
+        ReferenceOrProblem made;
+        if (options.withoutReference)
+            made.problem = options.withoutReference->problem;
+        else
+            made = referenceOf(scenario, options.makeReference);
+        whole.reference = std::move(made.reference);
+        evaluateCase({scenario, whole.live.trajectory, whole.reference.get(), whole.scheme}, row,
+                     made.problem);
     } else {
         row.outcome = results::Outcome::NonFinite;
         row.reason = run.nonFinite;
     }
-    row.metrics.insert(row.metrics.end(), run.costs.begin(), run.costs.end());
+    for (results::MetricRow& cost : run.costs) {
+        judgeMetric(cost, scenario, row);
+        row.metrics.push_back(std::move(cost));
+    }
     judgeCase(row, scenario);
     if (options.withoutReference) judgeWithoutReference(row, *options.withoutReference);
     row.peakMemoryKiB = peakMemoryKiB();
