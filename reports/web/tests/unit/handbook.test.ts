@@ -52,7 +52,7 @@ test('files that exercises and the gallery name exist', () => {
   assert.ok(readGallery(root).length >= 20);
   for (const { name, page } of site.pages)
     for (const exercise of page.exercises)
-      for (const command of [...exercise.answer, exercise.judge])
+      for (const command of [...exercise.answer, exercise.command])
         for (const [, file] of command.matchAll(/ ((?:reports|scenarios)\/\S+\.json)/g))
           assert.doesNotThrow(() => readFileSync(join(root, file as string)), `${name}: ${file}`);
 });
@@ -82,8 +82,19 @@ test('fences are read', () => {
   );
   assert.throws(() => readSceneFence('scenario: a\nsides: L | x'), /not known/);
   assert.throws(() => readSceneFence('scenario: a'), /one to three/);
-  const exercise = readExercise('Do.\n--- judge\n./j\n--- answer\n./a\n./b\n--- wrong\n./w\n--- solution\nSo.');
-  assert.deepEqual(exercise, { text: 'Do.', judge: './j', answer: ['./a', './b'], wrong: './w', solution: 'So.' });
+  const text = 'Do.\n--- judge\n./j\n--- answer\n./a\n./b\n--- wrong\n./w\n./v\n--- solution\nSo.';
+  const exercise = {
+    text: 'Do.',
+    command: './j',
+    isJudged: true,
+    answer: ['./a', './b'],
+    wrong: ['./w', './v'],
+    solution: 'So.',
+  };
+  assert.deepEqual(readExercise(text), exercise);
+  const observed = text.replace('judge', 'look');
+  assert.throws(() => readExercise(observed), /nothing judges/);
+  assert.equal(readExercise(observed.replace('--- wrong\n./w\n./v\n', '')).isJudged, false);
   assert.throws(() => readExercise('Do.\n--- judge\n./j'), /has a text/);
 });
 
@@ -93,7 +104,7 @@ test('the structure of a page notices what a translation lacks', () => {
     siteRoot: '',
     sourceLink: () => '#',
     sceneHtml: () => '',
-    words: { exercise: '', judge: '', answer: '', copy: '' },
+    words: { exercise: '', judge: '', look: '', answer: '', copy: '' },
   };
   const source =
     '# T\n\n$x$ text\n\n```math\nx = \\text{one}\n```\n\n```quote f.cpp\nfrom: f()\n```\n\n```sh\n./rigor a  # note\n```\n';

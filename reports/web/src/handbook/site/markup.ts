@@ -44,7 +44,7 @@ export interface MarkupContext {
   siteRoot: string; // path that "site:" in a link stands for
   sourceLink: (file: string, line: number) => string;
   sceneHtml: (scene: SceneFence) => string;
-  words: { exercise: string; judge: string; answer: string; copy: string };
+  words: { exercise: string; judge: string; look: string; answer: string; copy: string };
 }
 
 export const escaped = (text: string): string =>
@@ -99,7 +99,7 @@ export function renderPage(source: string, context: MarkupContext): Page {
     page.exercises.push(fence);
     const number = page.exercises.length;
     return `<section class="exercise"><h3>${escaped(words.exercise)} ${number}</h3>${marked.parse(fence.text)}
-<p class="judge">${escaped(words.judge)}</p>${codeBlock(fence.judge, 'sh', words)}
+<p class="judge">${escaped(fence.isJudged ? words.judge : words.look)}</p>${codeBlock(fence.command, 'sh', words)}
 <details><summary>${escaped(words.answer)}</summary>${codeBlock(fence.answer.join('\n'), 'sh', words)}${marked.parse(fence.solution)}</details></section>\n`;
   };
 
