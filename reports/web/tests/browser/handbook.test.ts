@@ -72,6 +72,10 @@ describe('the handbook', { skip: skip || missing }, () => {
         const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
         assert.ok(wide <= 0, `${link} is ${wide} px too wide`);
         assert.equal(await page.locator('h1').count(), 1, link);
+        const cut = await page
+          .locator('.exercise .judge + .code pre')
+          .evaluateAll((all) => all.filter((e) => e.scrollWidth > e.clientWidth).map((e) => e.textContent));
+        assert.deepEqual(cut, [], `${link}: commands that are cut`);
       }
     }
     assert.deepEqual(trouble, []);

@@ -125,12 +125,17 @@ test('the structure of a page notices what a translation lacks', () => {
     siteRoot: '',
     sourceLink: () => '#',
     sceneHtml: () => '',
+    metric: (name: string) => (name === 'm' ? { href: 'h', title: 't' } : null),
     words: { exercise: '', judge: '', look: '', answer: '', copy: '' },
   };
   const source =
     '# T\n\n$x$ text\n\n```math\nx = \\text{one}\n```\n\n```quote f.cpp\nfrom: f()\n```\n\n```sh\n./rigor a  # note\n```\n';
   const page = renderPage(source, context);
   assert.equal(page.title, 'T');
+  assert.match(
+    renderPage('`m` and `n`', context).html,
+    /<a href="h" title="t"><code>m<\/code><\/a> and <code>n<\/code>/,
+  );
   assert.equal(page.inlineFormulas, 1);
   assert.deepEqual(structureOf(page).commands, ['./rigor a']);
   assert.deepEqual(structureOf(renderPage(source.replace('one', '一'), context)), structureOf(page));

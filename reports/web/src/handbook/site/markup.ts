@@ -44,6 +44,8 @@ export interface MarkupContext {
   siteRoot: string; // path that "site:" in a link stands for
   sourceLink: (file: string, line: number) => string;
   sceneHtml: (scene: SceneFence) => string;
+  /** Place in the reference and title ("": none) of a metric of this name; null where there is none. */
+  metric: (name: string) => { href: string; title: string } | null;
   words: { exercise: string; judge: string; look: string; answer: string; copy: string };
 }
 
@@ -144,6 +146,12 @@ export function renderPage(source: string, context: MarkupContext): Page {
         const id = `s${page.headings.length}`;
         page.headings.push({ level: depth, id, html });
         return `<h${depth} id="${id}">${html}</h${depth}>\n`;
+      },
+      codespan({ text }) {
+        const metric = context.metric(text);
+        const code = `<code>${escaped(text)}</code>`;
+        if (!metric) return code;
+        return `<a href="${metric.href}"${metric.title ? ` title="${escaped(metric.title)}"` : ''}>${code}</a>`;
       },
       link({ href, tokens }) {
         page.links.push(href);

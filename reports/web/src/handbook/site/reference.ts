@@ -178,6 +178,7 @@ function documentPage(root: string, { file, page: name, title }: Document, langu
     siteRoot: '',
     sourceLink: () => '',
     sceneHtml: () => '',
+    metric: () => null,
     words: words[language],
   });
   const html = made.html.replace(/<a href="([^"]*)">([\s\S]*?)<\/a>/g, (whole, target: string, text: string) => {
