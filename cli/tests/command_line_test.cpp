@@ -215,6 +215,11 @@ TEST(CommandLine, ABoundThatIsMissedSaysWhy) {
         rigor(balls + " --set bodies.ball.position=[0,1.02915] --set 'accept.*.joint_drift=1'");
     EXPECT_EQ(joint.code, 1);
     EXPECT_NE(joint.out.find("no value: no joint of the scene allows it"), std::string::npos) << joint.out;
+    const auto uncounted = rigor(balls + " --engine ode --set bodies.ball.position=[0,1.02915]" +
+                                 " --set 'accept.*.mean_pair_tests=9' --set 'accept.*.rest_motion=9'");
+    EXPECT_EQ(uncounted.code, 1);
+    EXPECT_NE(uncounted.out.find("no value: the engine does not count this"), std::string::npos)
+        << uncounted.out;
     const auto least = rigor(balls + R"( --set bodies.ball.position=[0,1.02915])" +
                              R"( --set 'accept.*.mean_contacts={"min":3,"max":9}')");
     EXPECT_EQ(least.code, 1);

@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "adapters/interface/prepared_engine.hpp"
+#include "validation/results/values.hpp"
+#include "validation/runner/cost.hpp"
 #include "validation/runner/judge.hpp"
 #include "validation/runner/read_back.hpp"
 #include "validation/runner/simulate.hpp"
@@ -52,6 +55,28 @@ CaseRow startRow(const Scenario& scenario, const adapter::EngineSpec& spec, doub
     row.preset = spec.preset();
     row.dt = dt;
     return row;
+}
+
+/// Judges the counters of the engine. A bound on one that the engine does not count is a miss: a bound that is set
+/// must be evaluated.
+void addCosts(std::vector<results::MetricRow> costs, const Scenario& scenario, CaseRow& row) {
+    for (results::MetricRow& cost : costs) {
+        judgeMetric(cost, scenario, row);
+        row.metrics.push_back(std::move(cost));
+    }
+    for (const scenario::Bound& bound : scenario.accept) {
+        if (!isCostMetric(bound.metric) || boundFor(scenario, row, bound.metric) != &bound ||
+            results::wholeScene(row, bound.metric) != nullptr)
+            continue;
+        results::MetricRow missing;
+        missing.name = bound.metric;
+        missing.unit = "1";
+        missing.kind = "cost";
+        missing.value = std::numeric_limits<double>::quiet_NaN();
+        judgeMetric(missing, scenario, row);
+        missing.note = "no value: the engine does not count this";
+        row.metrics.push_back(missing);
+    }
 }
 
 }  // namespace
@@ -100,10 +125,7 @@ WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec
         row.outcome = results::Outcome::NonFinite;
         row.reason = run.nonFinite;
     }
-    for (results::MetricRow& cost : run.costs) {
-        judgeMetric(cost, scenario, row);
-        row.metrics.push_back(std::move(cost));
-    }
+    addCosts(std::move(run.costs), scenario, row);
     judgeCase(row, scenario);
     if (options.withoutReference) judgeWithoutReference(row, *options.withoutReference);
     row.peakMemoryKiB = peakMemoryKiB();
