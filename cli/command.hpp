@@ -16,6 +16,9 @@ namespace CLI {
 class App;
 class Option;
 }  // namespace CLI
+namespace rigor::results {
+struct CaseRow;
+}  // namespace rigor::results
 namespace rigor::scenario {
 class LoadError;
 struct LoadedScenario;
@@ -111,9 +114,9 @@ void addEngines(CLI::App& command, std::string& engines, const std::string& help
 /// --reference-limit SECONDS
 void addReferenceLimit(CLI::App& command, validation::ReferenceLimits& limits);
 
-/// True if `--set` changed more than the acceptance bounds: simulation and reference follow the new values,
-/// the bounds in the file were measured at the file's values.
-bool setsMoreThanBounds(const std::vector<std::string>& overrides);
+/// True if an error against the exact solution misses its bound and `--set` changed more than bounds. Such errors
+/// grow with the values, while the bound belongs to those of the file; that a body rests holds for any.
+bool missesByOtherValues(const results::CaseRow& row, const std::vector<std::string>& overrides);
 
 inline constexpr const char* kBoundsNote =
     "the bounds were set at the file's own values; for other values judge the errors and their order, or "

@@ -7,6 +7,7 @@
 #include "cli/command.hpp"
 #include "cli/reference_checks.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "validation/results/types.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -126,9 +127,12 @@ void addReferenceLimit(CLI::App& command, validation::ReferenceLimits& limits) {
         ->check(CLI::PositiveNumber);
 }
 
-bool setsMoreThanBounds(const std::vector<std::string>& overrides) {
-    return std::any_of(overrides.begin(), overrides.end(),
-                       [](const std::string& text) { return !text.starts_with("accept"); });
+bool missesByOtherValues(const results::CaseRow& row, const std::vector<std::string>& overrides) {
+    const bool isOther = std::any_of(overrides.begin(), overrides.end(),
+                                     [](const std::string& text) { return !text.starts_with("accept"); });
+    return isOther && std::any_of(row.metrics.begin(), row.metrics.end(), [](const results::MetricRow& m) {
+               return m.verdict == results::Verdict::Fail && (m.kind == "exact" || m.kind == "scheme_exact");
+           });
 }
 
 }  // namespace rigor::cli

@@ -132,8 +132,12 @@ void printCase(const results::CaseRow& row, bool json) {
     std::printf("  %s\n", report::accuracySentence(row).c_str());
     for (const auto& m : row.metrics) {
         if (!m.subject.empty()) continue;
-        std::printf("  %-26s %-13s %14.6g %-8s", m.name.c_str(), m.kind.c_str(), m.value, m.unit.c_str());
+        if (std::isnan(m.value))
+            std::printf("  %-26s %-13s %14s %-8s", m.name.c_str(), m.kind.c_str(), "-", m.unit.c_str());
+        else
+            std::printf("  %-26s %-13s %14.6g %-8s", m.name.c_str(), m.kind.c_str(), m.value, m.unit.c_str());
         if (m.bound) std::printf("  bound %.4g  %s", *m.bound, results::verdictName(m.verdict));
+        if (m.verdict == results::Verdict::Fail && !m.note.empty()) std::printf(" (%s)", m.note.c_str());
         std::printf("\n");
     }
     for (const auto& q : row.quantities) {
@@ -221,8 +225,7 @@ int runHere(const RunArguments& a) {
     validation::setAlarm(0.0);
     if (csv != nullptr && !csv->flush()) throw results::EnvironmentError(a.csv, "cannot be written", errno);
     if (a.csv != "-") printCase(live.row, a.json);
-    if (live.row.verdict == results::Verdict::Fail && setsMoreThanBounds(a.overrides))
-        std::fprintf(stderr, "note: %s\n", kBoundsNote);
+    if (missesByOtherValues(live.row, a.overrides)) std::fprintf(stderr, "note: %s\n", kBoundsNote);
     switch (live.row.verdict) {
         case results::Verdict::Pass:
         case results::Verdict::KnownDeviation:

@@ -201,6 +201,33 @@ TEST(CommandLine, BoundsUnderOverridesAreExplainedAndCanBeGiven) {
     EXPECT_EQ(tight.out.find("note:"), std::string::npos) << tight.out;
 }
 
+TEST(CommandLine, ABoundThatIsMissedSaysWhy) {
+    const std::string balls =
+        std::string("run ") + RIGOR_SOURCE_DIR + "/reports/handbook/exercises/three_balls.json";
+    const auto low = rigor(balls + " --set bodies.ball.position=[0,1.01]");
+    EXPECT_EQ(low.code, 1);
+    EXPECT_NE(low.out.find("rest_motion misses its bound: no value: body 'left' stands in the way"),
+              std::string::npos)
+        << low.out;
+    EXPECT_EQ(low.out.find("nan"), std::string::npos) << low.out;
+    EXPECT_EQ(low.out.find("note:"), std::string::npos) << "rest holds for any values: " << low.out;
+    const auto joint =
+        rigor(balls + " --set bodies.ball.position=[0,1.02915] --set 'accept.*.joint_drift=1'");
+    EXPECT_EQ(joint.code, 1);
+    EXPECT_NE(joint.out.find("no value: no joint of the scene allows it"), std::string::npos) << joint.out;
+    const auto uncounted = rigor(balls + " --engine ode --set bodies.ball.position=[0,1.02915]" +
+                                 " --set 'accept.*.mean_pair_tests=9' --set 'accept.*.rest_motion=9'");
+    EXPECT_EQ(uncounted.code, 1);
+    EXPECT_NE(uncounted.out.find("no value: the engine does not count this"), std::string::npos)
+        << uncounted.out;
+    const auto least = rigor(balls + R"( --set bodies.ball.position=[0,1.02915])" +
+                             R"( --set 'accept.*.mean_contacts={"min":3,"max":9}')");
+    EXPECT_EQ(least.code, 1);
+    EXPECT_NE(least.out.find("mean_contacts misses its bound: less than its lower bound 3"),
+              std::string::npos)
+        << least.out;
+}
+
 /// Lines of `text` that hold `what`.
 int countLines(const std::string& text, const std::string& what) {
     int count = 0;

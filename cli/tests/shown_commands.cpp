@@ -48,6 +48,31 @@ ShownCommands readShownCommands(const fs::path& document) {
     return shown;
 }
 
+std::vector<ShownExercise> readShownExercises(const fs::path& document) {
+    std::ifstream in(document);
+    std::vector<ShownExercise> exercises;
+    std::string line, part;
+    bool inside = false, isJudged = false;
+    while (std::getline(in, line)) {
+        if (line.starts_with("```")) {
+            inside = line == "```exercise";
+            part.clear();
+            isJudged = false;
+        } else if (inside && line.starts_with("--- ")) {
+            part = line.substr(4);
+            if (part == "judge") exercises.emplace_back();
+            isJudged |= part == "judge";
+        } else if (isJudged && part != "solution" && isCommand(line)) {
+            ShownExercise& exercise = exercises.back();
+            (part == "judge"    ? exercise.judges
+             : part == "answer" ? exercise.answers
+                                : exercise.wrongs)
+                .push_back(line);
+        }
+    }
+    return exercises;
+}
+
 Ended runShownCommand(const fs::path& folder, const std::string& line) {
     const fs::path program = folder / "rigor", sources = RIGOR_SOURCE_DIR;
     if (!fs::exists(program)) fs::create_symlink(fs::path(RIGOR_BINARY_DIR) / "bin" / "rigor", program);
@@ -62,7 +87,7 @@ Ended runShownCommand(const fs::path& folder, const std::string& line) {
     std::ifstream output(folder / "output.txt");
     std::stringstream text;
     text << output.rdbuf();
-    return {WIFEXITED(status) && WEXITSTATUS(status) == 0, text.str().substr(0, 4000)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text.str().substr(0, 4000)};
 }
 
 }  // namespace rigor::cli_test

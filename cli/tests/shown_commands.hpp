@@ -22,12 +22,22 @@ struct ShownCommands {
     std::vector<std::pair<std::string, std::string>> files;  ///< name and content
 };
 
+/// An ```exercise fence of the handbook that a command judges.
+struct ShownExercise {
+    std::vector<std::string>
+        judges;  ///< the first with a place in capitals that the reader fills in, or none
+    std::vector<std::string> answers, wrongs;  ///< commands that end well, and commands that do not
+};
+
 /// Lines of ```sh fences that run `./rigor`, without their notes; ```json fences after a line "File `NAME`:"; of the
 /// handbook's ```exercise fences the commands of "--- answer", and of "--- wrong", which do not end well.
 ShownCommands readShownCommands(const std::filesystem::path& document);
 
+/// The ```exercise fences with "--- judge"; those with "--- look" judge nothing.
+std::vector<ShownExercise> readShownExercises(const std::filesystem::path& document);
+
 struct Ended {
-    bool well = false;  ///< exit code 0
+    int code = -1;  ///< exit code; -1: ended by a signal
     std::string output;
 };
 

@@ -122,8 +122,9 @@ Offender offenderOf(const CaseRow& row) {
     if (offender.metric) {
         const auto& m = *offender.metric;
         offender.text = m.name + " " + shortNumber(m.value);
-        if (m.bound) offender.text += " > " + shortNumber(*m.bound);
+        if (m.bound && !(m.value <= *m.bound)) offender.text += " > " + shortNumber(*m.bound);
         if (!m.unit.empty() && m.unit != "1") offender.text += " " + m.unit;
+        if (m.bound && m.value <= *m.bound) offender.text += ", " + m.note;
     } else {
         offender.text = row.reason.empty() ? "fails" : row.reason;
     }

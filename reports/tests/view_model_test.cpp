@@ -279,6 +279,17 @@ TEST(ViewModel, OffendersAreSortedByHowFarTheyMiss) {
     EXPECT_DOUBLE_EQ(list[0].excess, 90.0);
 }
 
+TEST(ViewModel, AnOffenderBelowItsLowerBoundSaysSo) {
+    results::Run run = twoScenarios();
+    run.cases = {makeCase("a", "still", 0.01, 0.5, 1.0)};
+    run.cases[0].verdict = Verdict::Fail;
+    run.cases[0].metrics[0].verdict = Verdict::Fail;
+    run.cases[0].metrics[0].note = "less than its lower bound 0.9";
+    const ViewModel view(run);
+    ASSERT_EQ(view.offenders().size(), 1u);
+    EXPECT_EQ(view.offenders()[0].text, "error 0.5 m, less than its lower bound 0.9");
+}
+
 TEST(ViewModel, LedgerGathersEqualLinesOverScenarios) {
     results::Run run = twoScenarios();
     run.cases = {makeCase("a", "one", 0.01, 1.0), makeCase("a", "one", 0.1, 1.0),

@@ -37,6 +37,15 @@ Json* locate(Json& at, const std::string& path) {
     return nullptr;
 }
 
+/// The place of `accept.ENGINE.METRIC` in a file that has no bounds of the engine yet; null for other paths.
+Json* newBound(Json& document, const std::string& path) {
+    const std::size_t engine = std::string("accept.").size(), metric = path.find('.', engine);
+    if (!document.is_object() || !path.starts_with("accept.") || metric == std::string::npos ||
+        path.find('.', metric + 1) != std::string::npos)
+        return nullptr;
+    return &document["accept"][path.substr(engine, metric - engine)][path.substr(metric + 1)];
+}
+
 /// Names at the furthest place that `path` leads to: "names in bodies: floor, ball".
 std::string furthest(const Json& document, const std::string& path) {
     const Json* at = &document;
@@ -78,6 +87,7 @@ void applyOverride(JsonDocument& document, const std::string& text, const std::s
     const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
     const Json parsed = Json::parse(value, nullptr, false);
     Json* target = locate(document.value, key);
+    if (target == nullptr) target = newBound(document.value, key);
     if (target == nullptr)
         refuse("override.unknown", "'" + key + "'",
                furthest(document.value, key) +

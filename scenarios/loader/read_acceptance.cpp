@@ -29,9 +29,11 @@ void readBounds(const Node& node, Scenario& scenario) {
         for (const auto& [metric, value] : metrics.members()) {
             Bound bound{engine, preset, metric, 0.0, 0.0};
             if (value.json().is_object()) {
-                value.isObject({"max", "order"});
+                value.isObject({"min", "max", "order"});
+                if (const auto n = value.find("min")) bound.min = n->number(0.0, kLargestBound);
                 if (const auto n = value.require("max")) bound.max = n->number(0.0, kLargestBound);
                 if (const auto n = value.find("order")) bound.order = n->number(0.0, 8.0);
+                if (bound.min > bound.max) value.problem("accept.bound", "min not above max");
             } else {
                 bound.max = value.number(0.0, kLargestBound);
             }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -266,13 +267,14 @@ struct ReferenceSpec {
     std::map<std::string, ParameterValue> parameters;
 };
 
-/// value <= max * (dt / first dt of the scenario)^order
+/// min <= value <= max * (dt / first dt of the scenario)^order
 struct Bound {
     std::string engine;  ///< engine name ("rigor"), or "*" for every engine not named
     std::string preset;  ///< "default", "matched", or "" for both
     std::string metric;
     double max = 0.0;
     double order = 0.0;
+    double min = -std::numeric_limits<double>::infinity();
 };
 
 /// A recorded deviation: where `metric` misses its bound but stays below `max`, the verdict is "known

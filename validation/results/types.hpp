@@ -42,7 +42,7 @@ struct MetricRow {
     std::optional<double> bound;        ///< acceptance bound at this dt
     std::optional<double> expectation;  ///< recorded expectation of a known deviation at this dt
     Verdict verdict = Verdict::Pass;    ///< Pass, Fail or KnownDeviation; Pass where there is no bound
-    std::string note;                   ///< reason of a known deviation, or why there is no value
+    std::string note;                   ///< reason of a known deviation or of a miss: no value, too small
     /// Scale of the value, in its unit: from the scenario and its exact solution alone. Empty if the metric
     /// has none (validation/accuracy).
     std::optional<double> scale = std::nullopt;

@@ -50,24 +50,55 @@ void keepWorstSubjects(std::vector<MetricRow>& rows) {
     rows.resize(kMostSubjects);
 }
 
+bool hasContacts(const Trajectory& run) {
+    return std::any_of(run.contacts.begin(), run.contacts.end(),
+                       [](const auto& frame) { return !frame.empty(); });
+}
+
+/// The reason why a metric that could be computed has no value. `referenceProblem`: why the reference does not hold.
+std::string whyNoValue(const MetricEntry& entry, const MetricInput& input,
+                       const std::string& referenceProblem) {
+    if (entry.kind == MetricKind::Rest && !referenceProblem.empty()) return "no value: " + referenceProblem;
+    if (input.trajectory.frames() < 2) return "no value: the run has no step";
+    switch (entry.kind) {
+        case MetricKind::Exact:
+        case MetricKind::SchemeExact:
+        case MetricKind::Measured:
+            return "no value: the reference does not say this of the bodies";
+        case MetricKind::Invariant:
+            return "no value: the scene does not conserve this";
+        case MetricKind::Contact:
+            return hasContacts(input.trajectory) ? "no value: no contact of the run allows it"
+                                                 : "no value: the run has no contact";
+        case MetricKind::Joint:
+            return "no value: no joint of the scene allows it";
+        case MetricKind::Outcome:
+            return "no value: the scene is no heap of bodies";
+        case MetricKind::Rest:
+            break;
+    }
+    return input.reference != nullptr ? "no value: no body rests in the exact solution"
+                                      : "no value: the scene has no reference at rest";
+}
+
 /// A bound that is set must be evaluated: a metric that gives no value is a miss, unless it compares with a
 /// reference that does not hold for these values.
 void addMissing(const MetricEntry& entry, const MetricInput& input, const std::string& problem,
-                CaseRow& row) {
+                const std::string& referenceProblem, CaseRow& row) {
     if (boundFor(input.scenario, row, entry.name) == nullptr) return;
     const bool compares = entry.kind == MetricKind::Exact || entry.kind == MetricKind::SchemeExact ||
                           entry.kind == MetricKind::Measured;
     if (problem.empty() && compares && input.reference == nullptr) return;
     MetricRow missing = metricRow(entry, {"", kNaN, -1.0});
-    missing.note = problem.empty() ? "the run shows no value of it" : problem;
+    missing.note = problem.empty() ? whyNoValue(entry, input, referenceProblem) : problem;
     const std::string note = missing.note;
     judgeMetric(missing, input.scenario, row);
     missing.note = note;
     row.metrics.push_back(missing);
 }
 
-void evaluateMetric(const MetricEntry& entry, const MetricInput& input, RelativeErrors& relative,
-                    CaseRow& row) {
+void evaluateMetric(const MetricEntry& entry, const MetricInput& input, const std::string& referenceProblem,
+                    RelativeErrors& relative, CaseRow& row) {
     std::vector<MetricValue> values;
     std::string problem;
     try {
@@ -76,7 +107,7 @@ void evaluateMetric(const MetricEntry& entry, const MetricInput& input, Relative
         problem = std::string("could not be computed: ") + error.what();
     }
     if (values.empty()) {
-        addMissing(entry, input, problem, row);
+        addMissing(entry, input, problem, referenceProblem, row);
         return;
     }
     std::vector<MetricRow> rows;
@@ -206,10 +237,10 @@ ReferenceOrProblem referenceOf(const Scenario& scenario, const ReferenceMaker& m
     return result;
 }
 
-void evaluateCase(const MetricInput& input, CaseRow& row) {
+void evaluateCase(const MetricInput& input, CaseRow& row, const std::string& referenceProblem) {
     RelativeErrors relative(input);
     for (const MetricEntry* entry : orderedMetrics(input.scenario))
-        evaluateMetric(*entry, input, relative, row);
+        evaluateMetric(*entry, input, referenceProblem, relative, row);
     row.accuracy = relative.accuracyOf(row.metrics);
     if (input.reference == nullptr) return;
     for (const Quantity& q : input.reference->quantities(row.dt, input.scheme))

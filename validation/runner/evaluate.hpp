@@ -25,8 +25,9 @@ struct ReferenceOrProblem {
 ReferenceOrProblem referenceOf(const scenario::Scenario& scenario, const ReferenceMaker& make = {});
 
 /// Fills metrics (those that matter to the scenario first), accuracy and quantities of `row`, whose engine,
-/// preset and dt are set.
-void evaluateCase(const MetricInput& input, results::CaseRow& row);
+/// preset and dt are set. `referenceProblem`: why the reference does not hold for this scenario, said of bounds on
+/// rest that cannot be judged for it.
+void evaluateCase(const MetricInput& input, results::CaseRow& row, const std::string& referenceProblem);
 
 /// The trajectory, the exact states at the same times, and the diagnostic curves, ready to be written.
 results::TrajectoryFile trajectoryFile(const MetricInput& input, const results::CaseRow& row);

@@ -8,6 +8,7 @@
 
 #include "adapters/interface/presets.hpp"
 #include "validation/results/judgement.hpp"
+#include "validation/results/values.hpp"
 #include "validation/runner/read_back.hpp"
 #include "validation/runner/runner.hpp"
 
@@ -131,8 +132,9 @@ void judgeMetric(MetricRow& row, const Scenario& scenario, const CaseRow& judged
     const auto* known = deviationFor(scenario, judged.engine, judged.preset, row.name);
     if (bound != nullptr) row.bound = boundAt(*bound, scenario, judged.dt);
     if (known != nullptr && std::isfinite(known->max)) row.expectation = known->max;
-    const bool misses = bound != nullptr && !(row.value <= *row.bound);  // true for NaN
-    const bool asKnown = known != nullptr && row.value <= known->max;
+    const bool isBelow = bound != nullptr && row.value < bound->min;
+    const bool misses = bound != nullptr && (isBelow || !(row.value <= *row.bound));  // true for NaN
+    const bool asKnown = known != nullptr && !isBelow && row.value <= known->max;
     const bool isWrong = row.relative && results::gradeOf(*row.relative) == results::Grade::E;
     if (misses)
         row.verdict = asKnown ? Verdict::KnownDeviation : Verdict::Fail;
@@ -142,6 +144,7 @@ void judgeMetric(MetricRow& row, const Scenario& scenario, const CaseRow& judged
         row.verdict =
             bound == nullptr && known != nullptr && isWrong ? Verdict::KnownDeviation : Verdict::Pass;
     if (row.verdict == Verdict::KnownDeviation) row.note = known->reason;
+    if (isBelow) row.note = "less than its lower bound " + results::exactText(bound->min);
 }
 
 void judgeCase(CaseRow& row, const Scenario& scenario) {

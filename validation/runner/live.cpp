@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "adapters/interface/prepared_engine.hpp"
+#include "validation/results/values.hpp"
+#include "validation/runner/cost.hpp"
 #include "validation/runner/judge.hpp"
 #include "validation/runner/read_back.hpp"
 #include "validation/runner/simulate.hpp"
@@ -54,6 +57,28 @@ CaseRow startRow(const Scenario& scenario, const adapter::EngineSpec& spec, doub
     return row;
 }
 
+/// Judges the counters of the engine. A bound on one that the engine does not count is a miss: a bound that is set
+/// must be evaluated.
+void addCosts(std::vector<results::MetricRow> costs, const Scenario& scenario, CaseRow& row) {
+    for (results::MetricRow& cost : costs) {
+        judgeMetric(cost, scenario, row);
+        row.metrics.push_back(std::move(cost));
+    }
+    for (const scenario::Bound& bound : scenario.accept) {
+        if (!isCostMetric(bound.metric) || boundFor(scenario, row, bound.metric) != &bound ||
+            results::wholeScene(row, bound.metric) != nullptr)
+            continue;
+        results::MetricRow missing;
+        missing.name = bound.metric;
+        missing.unit = "1";
+        missing.kind = "cost";
+        missing.value = std::numeric_limits<double>::quiet_NaN();
+        judgeMetric(missing, scenario, row);
+        missing.note = "no value: the engine does not count this";
+        row.metrics.push_back(missing);
+    }
+}
+
 }  // namespace
 
 WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec, double dt,
@@ -88,14 +113,19 @@ WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec
     whole.live.trajectory = options.given ? options.given->back(run.trajectory) : std::move(run.trajectory);
     if (run.nonFinite.empty()) {
         if (options.onSimulated) options.onSimulated();
-        if (!options.withoutReference)
-            whole.reference = referenceOf(scenario, options.makeReference).reference;
-        evaluateCase({scenario, whole.live.trajectory, whole.reference.get(), whole.scheme}, row);
+        ReferenceOrProblem made;
+        if (options.withoutReference)
+            made.problem = options.withoutReference->problem;
+        else
+            made = referenceOf(scenario, options.makeReference);
+        whole.reference = std::move(made.reference);
+        evaluateCase({scenario, whole.live.trajectory, whole.reference.get(), whole.scheme}, row,
+                     made.problem);
     } else {
         row.outcome = results::Outcome::NonFinite;
         row.reason = run.nonFinite;
     }
-    row.metrics.insert(row.metrics.end(), run.costs.begin(), run.costs.end());
+    addCosts(std::move(run.costs), scenario, row);
     judgeCase(row, scenario);
     if (options.withoutReference) judgeWithoutReference(row, *options.withoutReference);
     row.peakMemoryKiB = peakMemoryKiB();

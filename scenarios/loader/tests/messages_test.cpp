@@ -132,6 +132,8 @@ const BrokenFile kBrokenFiles[] = {
      R"(bad.json:22: /accept/rigor@fast: found the key 'rigor@fast', expected engine, engine@default, engine@matched or * [accept.engine])"},
     {"NegativeBound", R"("position_final": 0.01)", R"("position_final": -0.01)",
      R"(bad.json:22: /accept/rigor/position_final: found number -0.01, expected number from 0 to 1e+12 [value.range])"},
+    {"LowerBoundAboveUpper", R"("position_final": 0.01)", R"("position_final": { "min": 2, "max": 1 })",
+     R"(bad.json:22: /accept/rigor/position_final: found object with 2 keys, expected min not above max [accept.bound])"},
     {"TwoReferences", R"("reference": {)", R"("reference": { "at_rest": {},)",
      R"(bad.json:21: /reference: found object with 2 keys, expected an object with one key, the name of the reference, or "none" [reference.form])"},
     {"BadName", R"("name": "base")", R"("name": "base scene")",

@@ -53,6 +53,20 @@ TEST(Overrides, ANewKeyAndAWordWithoutQuotes) {
     EXPECT_FALSE(with("slide_and_stop", {"reference=none"}).scenario.reference.has_value());
 }
 
+TEST(Overrides, ABoundMayBeNew) {
+    const Scenario s = with("slide_and_stop", {R"(accept.*.position_final={"min":0.1,"max":0.2})",
+                                               "accept.rigor.energy_gain=0.5"})
+                           .scenario;
+    ASSERT_EQ(s.accept.size(), 2u);
+    EXPECT_EQ(s.accept[0].engine, "*");
+    EXPECT_EQ(s.accept[0].metric, "position_final");
+    EXPECT_EQ(s.accept[0].min, 0.1);
+    EXPECT_EQ(s.accept[0].max, 0.2);
+    EXPECT_EQ(s.accept[1].engine, "rigor");
+    EXPECT_EQ(idOf("slide_and_stop", "accept.rigor=0.5"), "override.unknown");
+    EXPECT_EQ(idOf("slide_and_stop", "accept.rigor.energy_gain.most=0.5"), "override.unknown");
+}
+
 TEST(Overrides, TheTextKeepsThem) {
     const LoadedScenario loaded = with("slide_and_stop", {"bodies.block.velocity=[3.1,0,0.2]"});
     EXPECT_EQ(loadScenarioText(loaded.text, "again").scenario.bodies[1].velocity, (Vec3{3.1, 0.0, 0.2}));

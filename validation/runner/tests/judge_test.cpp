@@ -21,8 +21,11 @@ Scenario judged() {
     s.accept = {{"*", "", "drift", 1.0, 0.0},
                 {"ode", "", "drift", 2.0, 0.0},
                 {"ode", "matched", "drift", 0.5, 0.0},
-                {"*", "", "scaled", 1.0, 2.0}};
-    s.knownDeviations = {{"ode", "", "drift", 5.0, "a skin"}, {"bullet", "", "crashed", 0.0, "an assertion"}};
+                {"*", "", "scaled", 1.0, 2.0},
+                {"*", "", "between", 2.0, 0.0, 1.0}};
+    s.knownDeviations = {{"ode", "", "drift", 5.0, "a skin"},
+                         {"ode", "", "between", 5.0, "a skin"},
+                         {"bullet", "", "crashed", 0.0, "an assertion"}};
     return s;
 }
 
@@ -45,7 +48,10 @@ TEST_P(MetricVerdicts, FollowTheTable) {
     judgedCase.dt = c.dt;
     judgeMetric(row, judged(), judgedCase);
     EXPECT_STREQ(results::verdictName(row.verdict), results::verdictName(c.verdict));
-    EXPECT_EQ(row.note, c.verdict == Verdict::KnownDeviation ? "a skin" : "");
+    const bool isBelow = std::string(c.metric) == "between" && c.value < 1.0;
+    EXPECT_EQ(row.note, isBelow                                ? "less than its lower bound 1"
+                        : c.verdict == Verdict::KnownDeviation ? "a skin"
+                                                               : "");
 }
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -67,6 +73,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"box2d", "default", "scaled", 0.01, 0.011, Verdict::Fail},  // 1 * (0.01/0.1)^2
                     Row{"box2d", "default", "scaled", 0.01, 0.0099, Verdict::Pass},
                     Row{"box2d", "default", "scaled", 0.2, 3.9, Verdict::Pass},
+                    // A lower bound: nothing at all is not within, and no known deviation either.
+                    Row{"box2d", "default", "between", 0.1, 1.0, Verdict::Pass},
+                    Row{"box2d", "default", "between", 0.1, 2.0, Verdict::Pass},
+                    Row{"box2d", "default", "between", 0.1, 0.99, Verdict::Fail},
+                    Row{"box2d", "default", "between", 0.1, 2.01, Verdict::Fail},
+                    Row{"box2d", "default", "between", 0.1, kNaN, Verdict::Fail},
+                    Row{"ode", "default", "between", 0.1, 0.0, Verdict::Fail},
+                    Row{"ode", "default", "between", 0.1, 3.0, Verdict::KnownDeviation},
                     // Bounds are for the presets that every engine has; those that hold everywhere hold.
                     Row{"ode", "rough", "drift", 0.1, 5.1, Verdict::Pass},
                     Row{"ode", "rough", "contact_inconsistency", 0.1, 0.6, Verdict::Fail}));

@@ -72,6 +72,10 @@ describe('the handbook', { skip: skip || missing }, () => {
         const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
         assert.ok(wide <= 0, `${link} is ${wide} px too wide`);
         assert.equal(await page.locator('h1').count(), 1, link);
+        const cut = await page
+          .locator('.exercise .judge + .code pre')
+          .evaluateAll((all) => all.filter((e) => e.scrollWidth > e.clientWidth).map((e) => e.textContent));
+        assert.deepEqual(cut, [], `${link}: commands that are cut`);
       }
     }
     assert.deepEqual(trouble, []);
@@ -102,6 +106,37 @@ describe('the handbook', { skip: skip || missing }, () => {
         all.map((i) => (i as HTMLImageElement).complete && (i as HTMLImageElement).naturalWidth > 0),
       );
     assert.ok(pictures.length > 10 && pictures.every(Boolean), pictures.join());
+    assert.deepEqual(trouble, []);
+  });
+
+  test('pictures of the gallery are dark where the page is, with light lines', async () => {
+    for (const colorScheme of ['light', 'dark'] as const) {
+      await page.emulateMedia({ colorScheme });
+      await open('en/gallery.html');
+      const shot = await page.locator('.card img').nth(1).screenshot();
+      const { mean, most, least } = await page.evaluate(
+        async (url) => {
+          const image = new Image();
+          image.src = url;
+          await image.decode();
+          const canvas = new OffscreenCanvas(image.width, image.height);
+          const g = canvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
+          g.drawImage(image, 0, 0);
+          const green = [...g.getImageData(0, 0, image.width, image.height).data].filter((_, i) => i % 4 === 1);
+          const sum = green.reduce((a, b) => a + b, 0);
+          return {
+            mean: sum / green.length,
+            most: green.reduce((a, b) => Math.max(a, b)),
+            least: green.reduce((a, b) => Math.min(a, b)),
+          };
+        },
+        `data:image/png;base64,${shot.toString('base64')}`,
+      );
+      const found = `${colorScheme}: ${least} ... ${most}, mean ${mean}`;
+      if (colorScheme === 'dark') assert.ok(mean < 100 && most > 150, found);
+      else assert.ok(mean > 150 && least < 100, found);
+    }
+    await page.emulateMedia({ colorScheme: 'light' });
     assert.deepEqual(trouble, []);
   });
 

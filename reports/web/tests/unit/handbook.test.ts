@@ -11,8 +11,9 @@ import { readHeader } from '../../src/handbook/site/api.ts';
 import { brokenLinks, externalRequests, structureOf, translationErrors } from '../../src/handbook/site/checks.ts';
 import { commandOf, readExercise, readSceneFence } from '../../src/handbook/site/fences.ts';
 import { readGallery } from '../../src/handbook/site/gallery.ts';
-import { shown } from '../../src/handbook/site/layout.ts';
+import { sceneHtml, shown, shownIn } from '../../src/handbook/site/layout.ts';
 import { renderPage } from '../../src/handbook/site/markup.ts';
+import { chineseKinds, chineseMetrics } from '../../src/handbook/site/metric_titles.ts';
 import { findQuote, readQuote } from '../../src/handbook/site/quotes.ts';
 import { overridden, scenarioFile } from '../../src/handbook/site/record.ts';
 import { makeSite } from '../../src/handbook/site/site.ts';
@@ -47,12 +48,32 @@ test('Chinese pages are in Chinese', () => {
   }
 });
 
+test('metrics have Chinese titles, which stand on Chinese pages alone', () => {
+  const read = (file: string) => readFileSync(join(root, file), 'utf8');
+  const table = [
+    ...read('validation/metrics/metrics.def').matchAll(/METRIC\((\w+),\s*\w+,\s*"[^"]*",\s*"[^"]*",\s*(\w+),/g),
+  ];
+  const costs = [...read('validation/runner/cost.cpp').matchAll(/Cost\{"(\w+)"/g)].map((m) => m[1] as string);
+  assert.ok(table.length >= 50 && costs.length === 5, `${table.length} metrics, ${costs.length} counters`);
+  assert.deepEqual(Object.keys(chineseMetrics).sort(), [...table.map((m) => m[1] as string), ...costs].sort());
+  const kinds = new Set(table.map((m) => (m[2] as string).replace(/(?<!^)[A-Z]/g, '_$&').toLowerCase()));
+  assert.deepEqual(Object.keys(chineseKinds).sort(), [...kinds].sort());
+  for (const title of [...Object.values(chineseMetrics), ...Object.values(chineseKinds)])
+    assert.match(title, /[\u4e00-\u9fff]/);
+  for (const { language, name, page } of site.pages)
+    for (const scene of page.scenes)
+      for (const [, title = '', metric] of sceneHtml(scene, [], 'a/b.html', language).matchAll(
+        /<dt>([^<]*)<code>([^<@]*)/g,
+      ))
+        assert.equal(title.trim(), language === 'zh' ? chineseMetrics[metric as string] : '', `${name}: ${metric}`);
+});
+
 test('files that exercises and the gallery name exist', () => {
   for (const { scenario } of readGallery(root)) scenarioFile(root, scenario);
   assert.ok(readGallery(root).length >= 20);
   for (const { name, page } of site.pages)
     for (const exercise of page.exercises)
-      for (const command of [...exercise.answer, exercise.judge])
+      for (const command of [...exercise.answer, exercise.command])
         for (const [, file] of command.matchAll(/ ((?:reports|scenarios)\/\S+\.json)/g))
           assert.doesNotThrow(() => readFileSync(join(root, file as string)), `${name}: ${file}`);
 });
@@ -82,8 +103,19 @@ test('fences are read', () => {
   );
   assert.throws(() => readSceneFence('scenario: a\nsides: L | x'), /not known/);
   assert.throws(() => readSceneFence('scenario: a'), /one to three/);
-  const exercise = readExercise('Do.\n--- judge\n./j\n--- answer\n./a\n./b\n--- wrong\n./w\n--- solution\nSo.');
-  assert.deepEqual(exercise, { text: 'Do.', judge: './j', answer: ['./a', './b'], wrong: './w', solution: 'So.' });
+  const text = 'Do.\n--- judge\n./j\n--- answer\n./a\n./b\n--- wrong\n./w\n./v\n--- solution\nSo.';
+  const exercise = {
+    text: 'Do.',
+    command: './j',
+    isJudged: true,
+    answer: ['./a', './b'],
+    wrong: ['./w', './v'],
+    solution: 'So.',
+  };
+  assert.deepEqual(readExercise(text), exercise);
+  const observed = text.replace('judge', 'look');
+  assert.throws(() => readExercise(observed), /nothing judges/);
+  assert.equal(readExercise(observed.replace('--- wrong\n./w\n./v\n', '')).isJudged, false);
   assert.throws(() => readExercise('Do.\n--- judge\n./j'), /has a text/);
 });
 
@@ -93,12 +125,17 @@ test('the structure of a page notices what a translation lacks', () => {
     siteRoot: '',
     sourceLink: () => '#',
     sceneHtml: () => '',
-    words: { exercise: '', judge: '', answer: '', copy: '' },
+    metric: (name: string) => (name === 'm' ? { href: 'h', title: 't' } : null),
+    words: { exercise: '', judge: '', look: '', answer: '', copy: '' },
   };
   const source =
     '# T\n\n$x$ text\n\n```math\nx = \\text{one}\n```\n\n```quote f.cpp\nfrom: f()\n```\n\n```sh\n./rigor a  # note\n```\n';
   const page = renderPage(source, context);
   assert.equal(page.title, 'T');
+  assert.match(
+    renderPage('`m` and `n`', context).html,
+    /<a href="h" title="t"><code>m<\/code><\/a> and <code>n<\/code>/,
+  );
   assert.equal(page.inlineFormulas, 1);
   assert.deepEqual(structureOf(page).commands, ['./rigor a']);
   assert.deepEqual(structureOf(renderPage(source.replace('one', '一'), context)), structureOf(page));
@@ -130,6 +167,13 @@ test('overrides, numbers and headers', () => {
   });
   assert.equal(file.bodies[0]?.mass, 1);
   assert.deepEqual([null, 0, 12.345, 1.23e-9].map(shown), ['—', '0', '12.3', '1.2 · 10^-9']);
+  assert.deepEqual(
+    [0, 0.0333, 0.00123, 1.5, 2e-5, 3.6e-16, 250].map((v) => shownIn(v, 'm')),
+    ['0 m', '33.3 mm', '1.23 mm', '1.5 m', '20 µm', '3.6 · 10^-16 m', '250 m'],
+  );
+  assert.equal(shownIn(0.0333, '1'), '0.0333');
+  assert.equal(shownIn(0.0333, 'widths'), '0.0333 widths');
+  assert.equal(shownIn(null, 'm'), '—');
   const header = readHeader(
     'h',
     '// SPDX\n// What.\n#pragma once\n/// Steps.\nvoid step(int n);\nint a = 0;  ///< count\n',

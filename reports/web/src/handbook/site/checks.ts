@@ -49,7 +49,9 @@ export function structureOf(page: Page): Record<string, string[]> {
     quotes: page.quotes.map((q) => `${q.file}: ${q.from} .. ${q.to ?? '}'}`),
     formulas: page.formulas.map((f) => f.replace(/\\text\{[^}]*\}/g, '\\text{}').replace(/\s+/g, ' ')),
     scenes: runsOf(page),
-    exercises: page.exercises.map((e) => [e.judge, ...e.answer, e.wrong ?? ''].join(' | ')),
+    exercises: page.exercises.map((e) =>
+      [e.isJudged ? 'judge' : 'look', e.command, ...e.answer, ...e.wrong].join(' | '),
+    ),
     commands: page.commands.map((c) => c.replace(/ +#.*$/, '')),
     code: page.code.map((c) => c.lang),
   };

@@ -30,6 +30,7 @@ export const words = {
   en: {
     exercise: 'Exercise',
     judge: 'Judged by:',
+    look: 'Look with:',
     answer: 'Answer',
     copy: 'copy',
     contents: 'Contents',
@@ -49,6 +50,7 @@ export const words = {
   zh: {
     exercise: '练习',
     judge: '用下面的命令检验：',
+    look: '用下面的命令观察：',
     answer: '答案',
     copy: '复制',
     contents: '目录',

@@ -29,9 +29,10 @@ export interface SceneFence {
 
 export interface ExerciseFence {
   text: string; // Markdown
-  judge: string; // command, with a place that the reader fills in
+  command: string; // in capitals: the place that the reader fills in
+  isJudged: boolean; // its exit code judges the answer; else the reader looks at what it prints or draws
   answer: string[]; // commands that end with exit code 0, in order
-  wrong: string | null; // a command of a wrong answer: its exit code is another
+  wrong: string[]; // commands of wrong answers: their exit codes are others
   solution: string; // Markdown
 }
 
@@ -79,7 +80,7 @@ export function readSceneFence(body: string): SceneFence {
   };
 }
 
-/** Sections of an exercise: its text, then "--- judge", "--- answer", "--- wrong", "--- solution". */
+/** Sections of an exercise: its text, then "--- judge" or "--- look", "--- answer", "--- wrong", "--- solution". */
 export function readExercise(body: string): ExerciseFence {
   const parts = new Map<string, string>([['text', '']]);
   let now = 'text';
@@ -91,13 +92,17 @@ export function readExercise(body: string): ExerciseFence {
     } else parts.set(now, `${parts.get(now)}${line}\n`);
   }
   const part = (key: string) => (parts.get(key) ?? '').trim();
-  if (!part('text') || !part('judge') || !part('answer') || !part('solution'))
-    throw new Error(`an exercise has a text, a judge, an answer and a solution: ${body.slice(0, 80)}`);
+  const lines = (key: string) => part(key).split('\n').filter(Boolean);
+  const command = part('judge') || part('look');
+  if (!part('text') || !command || !part('answer') || !part('solution'))
+    throw new Error(`an exercise has a text, a judge or a look, an answer and a solution: ${body.slice(0, 80)}`);
+  if (part('look') && part('wrong')) throw new Error(`nothing judges a wrong answer here: ${body.slice(0, 80)}`);
   return {
     text: part('text'),
-    judge: part('judge'),
-    answer: part('answer').split('\n'),
-    wrong: part('wrong') || null,
+    command,
+    isJudged: part('judge') !== '',
+    answer: lines('answer'),
+    wrong: lines('wrong'),
     solution: part('solution'),
   };
 }

@@ -6,6 +6,7 @@
 import { type Language, words } from './contents.ts';
 import { commandOf, type SceneFence } from './fences.ts';
 import { coloured, escaped } from './markup.ts';
+import { chineseMetrics, chineseUnits } from './metric_titles.ts';
 import type { RunResult } from './record.ts';
 
 export interface NavigationItem {
@@ -83,13 +84,31 @@ export function shown(value: number | null): string {
   return value.toExponential(1).replace('e', ' · 10^').replace('+', '');
 }
 
-function metricHtml(name: string, result: RunResult | null): string {
-  const [metric, subject = ''] = name.split('@');
+const prefixes = [
+  ['', 1],
+  ['m', 1e-3],
+  ['µ', 1e-6],
+  ['n', 1e-9],
+] as const;
+
+/** A value in a multiple of its unit that leaves digits before the point: 0.00123 m is "1.23 mm". */
+export function shownIn(value: number | null, unit: string): string {
+  const size = Math.abs(value ?? 0);
+  const found = /^(m|s|m\/s|J|rad|rad\/s)$/.test(unit) ? prefixes.find(([, factor]) => size >= 0.1 * factor) : null;
+  const [prefix, factor] = found ?? prefixes[0];
+  const number = shown(value === null ? null : value / factor);
+  return unit === '1' || value === null ? number : `${number} ${prefix}${unit}`;
+}
+
+function metricHtml(name: string, result: RunResult | null, language: Language): string {
+  const [metric = '', subject = ''] = name.split('@');
   const found = result?.metrics.find((m) => m.name === metric && m.subject === subject);
   if (result && !found) throw new Error(`scene: the run has no metric ${name}`);
-  const text = found ? shown(found.value).replace(/10\^(-?\d+)/, '10<sup>$1</sup>') : '–';
-  const unit = found && found.unit !== '1' ? ` ${escaped(found.unit)}` : '';
-  return `<dt>${escaped(name)}</dt><dd>${text}${unit}</dd>`;
+  const unit = found && language === 'zh' ? (chineseUnits[found.unit] ?? found.unit) : found?.unit;
+  const text = found ? shownIn(found.value, unit as string) : '–';
+  const title = language === 'zh' ? `${escaped(chineseMetrics[metric] ?? '')} ` : '';
+  const html = escaped(text).replace(/10\^(-?\d+)/, '10<sup>$1</sup>');
+  return `<dt>${title}<code>${escaped(name)}</code></dt><dd>${html}</dd>`;
 }
 
 /** A scene with its players; without results (a check of the sources) its numbers are left out. */
@@ -98,7 +117,7 @@ export function sceneHtml(scene: SceneFence, results: (RunResult | null)[], path
   const data = (name: string, value: string | null) => (value === null ? '' : ` data-${name}="${escaped(value)}"`);
   const panels = scene.sides.map((side, i) => {
     const result = results[i] ?? null;
-    const metrics = scene.metrics.map((m) => metricHtml(m, result)).join('');
+    const metrics = scene.metrics.map((m) => metricHtml(m, result, language)).join('');
     const label = escaped(side.label);
     return `<div class="panel"><div class="panel-label">${label}</div><canvas role="img" aria-label="${w.picture}: ${label}" data-run="${result?.id ?? ''}"></canvas>${metrics ? `<dl>${metrics}</dl>` : ''}</div>`;
   });

@@ -44,7 +44,9 @@ export interface MarkupContext {
   siteRoot: string; // path that "site:" in a link stands for
   sourceLink: (file: string, line: number) => string;
   sceneHtml: (scene: SceneFence) => string;
-  words: { exercise: string; judge: string; answer: string; copy: string };
+  /** Place in the reference and title ("": none) of a metric of this name; null where there is none. */
+  metric: (name: string) => { href: string; title: string } | null;
+  words: { exercise: string; judge: string; look: string; answer: string; copy: string };
 }
 
 export const escaped = (text: string): string =>
@@ -99,7 +101,7 @@ export function renderPage(source: string, context: MarkupContext): Page {
     page.exercises.push(fence);
     const number = page.exercises.length;
     return `<section class="exercise"><h3>${escaped(words.exercise)} ${number}</h3>${marked.parse(fence.text)}
-<p class="judge">${escaped(words.judge)}</p>${codeBlock(fence.judge, 'sh', words)}
+<p class="judge">${escaped(fence.isJudged ? words.judge : words.look)}</p>${codeBlock(fence.command, 'sh', words)}
 <details><summary>${escaped(words.answer)}</summary>${codeBlock(fence.answer.join('\n'), 'sh', words)}${marked.parse(fence.solution)}</details></section>\n`;
   };
 
@@ -144,6 +146,12 @@ export function renderPage(source: string, context: MarkupContext): Page {
         const id = `s${page.headings.length}`;
         page.headings.push({ level: depth, id, html });
         return `<h${depth} id="${id}">${html}</h${depth}>\n`;
+      },
+      codespan({ text }) {
+        const metric = context.metric(text);
+        const code = `<code>${escaped(text)}</code>`;
+        if (!metric) return code;
+        return `<a href="${metric.href}"${metric.title ? ` title="${escaped(metric.title)}"` : ''}>${code}</a>`;
       },
       link({ href, tokens }) {
         page.links.push(href);

@@ -11,6 +11,7 @@ import type { Json } from '../../replay/json.ts';
 import { apiHtml } from './api.ts';
 import { type Language, languages, words } from './contents.ts';
 import { escaped, renderPage } from './markup.ts';
+import { chineseMetrics } from './metric_titles.ts';
 import { chineseHeadings, referenceWords } from './reference_words.ts';
 import type { GeneratedPage } from './site.ts';
 
@@ -69,7 +70,7 @@ function metrics(program: string, language: Language): GeneratedPage {
     entry(
       m.name,
       m.name,
-      `${paragraph(m.title)}<p><code>${escaped(m.formula)}</code></p>${paragraph(w.metricFacts(m.kind, m.unit), 'muted')}`,
+      `${paragraph(language === 'zh' ? chineseMetrics[m.name] : m.title)}<p><code>${escaped(m.formula)}</code></p>${paragraph(w.metricFacts(m.kind, m.unit), 'muted')}`,
     ),
   );
   return page(language, 'metrics', w.metrics, paragraph(w.metricsText) + filter(language) + entries.join(''));
@@ -177,6 +178,7 @@ function documentPage(root: string, { file, page: name, title }: Document, langu
     siteRoot: '',
     sourceLink: () => '',
     sceneHtml: () => '',
+    metric: () => null,
     words: words[language],
   });
   const html = made.html.replace(/<a href="([^"]*)">([\s\S]*?)<\/a>/g, (whole, target: string, text: string) => {

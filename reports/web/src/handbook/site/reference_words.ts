@@ -4,6 +4,7 @@
 // Titles, headings and introductions of the reference and the gallery in each language. What comes from the program's
 // tables and from documents beside the code is English.
 import type { Language } from './contents.ts';
+import { chineseKinds, chineseUnits } from './metric_titles.ts';
 
 interface ReferenceWords {
   commandLine: string;
@@ -107,8 +108,8 @@ export const referenceWords: Record<Language, ReferenceWords> = {
     studies: '研究',
     studiesText: '供 rigor study 使用的选项组合；旁边列出 --part 可选的部分。',
     metrics: '指标',
-    metricsText: '每个指标都是从轨迹到一个数的纯函数，对所有引擎相同。标题为英文。',
-    metricFacts: (kind, unit) => `${kind}，单位 ${unit}`,
+    metricsText: '每个指标都是从轨迹到一个数的纯函数，对所有引擎相同。公式中的文字为英文。',
+    metricFacts: (kind, unit) => `${chineseKinds[kind] ?? kind}，单位 ${chineseUnits[unit] ?? unit}`,
     references: '参考解',
     referencesText: '场景在 "reference" 键下引用的精确解及其出处。标题为英文。',
     source: '出处：',

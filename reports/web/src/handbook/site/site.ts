@@ -9,6 +9,7 @@ import { type Contents, hasPage, type Language, languages, pageFile, readContent
 import type { SceneFence } from './fences.ts';
 import { documentHtml, type NavigationItem, rootOf, sceneHtml, sourceHtml } from './layout.ts';
 import { type Page, renderPage } from './markup.ts';
+import { chineseMetrics } from './metric_titles.ts';
 import { type Recorder, scenarioFile } from './record.ts';
 import { referenceWords } from './reference_words.ts';
 
@@ -69,6 +70,13 @@ export function makeSite(root: string, recorder: Recorder | null, generated: rea
           siteRoot: rootOf(path),
           sourceLink: (file, line) => `${rootOf(path)}${sourcePath(file)}#L${line}`,
           sceneHtml: scene,
+          metric: (metric) =>
+            metric in chineseMetrics && !metric.startsWith('mean_')
+              ? {
+                  href: `${rootOf(path)}${language}/reference/metrics.html#${metric}`,
+                  title: language === 'zh' ? (chineseMetrics[metric] ?? '') : '',
+                }
+              : null,
           words: words[language],
         });
         for (const link of page.links) {
