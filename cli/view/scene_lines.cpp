@@ -170,7 +170,7 @@ engine::DebugOptions<S> optionsFor(const std::set<DebugKind>& kinds) {
     return options;
 }
 
-/// How far a ground reaches from the origin so that it is half as wide again as what moves above it [m].
+/// Reach of a ground from the origin [m] that is half as wide again as what moves above it.
 template <class S>
 double groundSize(typename S::Vec low, typename S::Vec high, const scenario::Scenario& scenario) {
     const auto down = adapter::toEngineVec<S>(scenario.gravity);
