@@ -32,7 +32,7 @@ endforeach()
 
 set(program COMPONENT program)
 install(TARGETS rigor rigor-validate RUNTIME DESTINATION bin ${program})
-install(DIRECTORY scenarios/library/ DESTINATION ${data}/scenarios ${program} FILES_MATCHING PATTERN "*.json")
+install(DIRECTORY scenarios/library/ DESTINATION ${data}/scenarios ${program} FILES_MATCHING PATTERN "*.json" PATTERN "*.csv")
 install(DIRECTORY scenarios/schema/ DESTINATION ${data}/schema ${program})
 install(DIRECTORY adapters/guest/sdk adapters/guest/examples DESTINATION ${data}/templates/adapters/guest ${program}
         PATTERN __pycache__ EXCLUDE)

@@ -44,6 +44,11 @@ void checkIndex(const std::string& of, const char* what, int found, std::size_t 
     refuse(of + " names " + what + " " + std::to_string(found) + ", expected " + most);
 }
 
+/// Points of 2D contacts at z = 0: a solid of a 3D engine touches anywhere along its depth.
+void flatten(std::vector<ContactPoint>& contacts) {
+    for (ContactPoint& contact : contacts) contact.pointA.z = contact.pointB.z = 0.0;
+}
+
 class CheckedWorld : public World {
   protected:
     template <class Work>
@@ -66,6 +71,7 @@ class CheckedWorld : public World {
                  std::string found)
         : world_(std::move(world)),
           materials_(scenario.materials.size()),
+          planar_(scenario.dimension == 2),
           environment_(before),
           changes_(std::move(found)) {
         for (const auto& body : scenario.bodies) shapes_.push_back(body.shapes.size());
@@ -86,6 +92,7 @@ class CheckedWorld : public World {
     }
     void readContacts(std::vector<ContactPoint>& contacts) const override {
         call("readContacts", [&] { world_->readContacts(contacts); });
+        if (planar_) flatten(contacts);
         for (std::size_t i = 0; i < contacts.size(); ++i) checkContact(contacts[i], i);
     }
     ContactInstant contactInstant() const override { return world_->contactInstant(); }
@@ -139,6 +146,7 @@ class CheckedWorld : public World {
 
     std::unique_ptr<World> world_;
     std::size_t materials_;
+    bool planar_;
     std::vector<std::size_t> shapes_;  ///< number of shapes of each body
     FloatEnvironment environment_;     ///< environment of the harness
     mutable std::string changes_;      ///< first change of it by the module
@@ -207,7 +215,12 @@ std::unique_ptr<World> buildChecked(const DynamicsEngine& engine, const Scenario
 CollisionAnswer collideChecked(const CollisionEngine& engine, const CollisionQuery& query) {
     const KeepFloatEnvironment keep;
     try {
-        return engine.collide(query);
+        CollisionAnswer answer = engine.collide(query);
+        if (query.dimension != 2) return answer;
+        flatten(answer.contacts);
+        for (auto* witness : {&answer.witnessA, &answer.witnessB})
+            if (*witness) (*witness)->z = 0.0;
+        return answer;
     } catch (...) {
         throwBounded();
     }

@@ -36,7 +36,7 @@ struct BodyState {
 struct ContactPoint {
     int bodyA = 0, bodyB = 0;    ///< scenario indices
     int shapeA = 0, shapeB = 0;  ///< index within Body::shapes; 0 if the engine does not report it
-    Vec3 pointA, pointB;         ///< points on the surfaces of A and B [m]
+    Vec3 pointA, pointB;         ///< points on the surfaces of A and B [m]; the program takes z as 0 in 2D
     Vec3 normal;                 ///< unit, from A to B
     double depth = 0.0;          ///< penetration [m], > 0 when overlapping; minus the signed distance
     bool hasImpulse = false;     ///< true if the engine reported the impulses of the last step

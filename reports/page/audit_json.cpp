@@ -20,6 +20,25 @@ Json findingsOf(const results::AuditRow& row) {
     return Json::parse(row.findings);
 }
 
+/// Places of the worst normals: of the deepest points, and of any point (the metric normal_error).
+Json normalsOf(const results::AuditRow& row) {
+    Json list = Json::array();
+    for (const Json& found : findingsOf(row)) {
+        const auto what = found.at("what").get<std::string>();
+        if (!what.ends_with("normal")) continue;
+        const Json& exact = found.at("exact");
+        const auto name = [&](int side) { return found.at("names").at(side).get<std::string>(); };
+        list.push_back({{"what", what},
+                        {"error", found.at("error")},
+                        {"pair", name(0) + "|" + name(1)},
+                        {"time", found.at("time")},
+                        {"step", found.at("step")},
+                        {"contact", found.at("contact")},
+                        {"distance", exact.is_null() ? Json(nullptr) : exact.at("distance")}});
+    }
+    return list;
+}
+
 }  // namespace
 
 Json auditJson(const CaseRow& row) {
@@ -60,6 +79,7 @@ Json inRunJson(const CaseRow& row) {
             {"depth", number(a->depthErrorMax)},
             {"point", number(a->pointErrorMax)},
             {"worst", a->worst},
+            {"normals", normalsOf(*a)},
             {"normalFlicker", value("normal_flicker")},
             {"contactFlicker", value("contact_flicker")}};
 }

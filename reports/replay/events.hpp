@@ -29,7 +29,7 @@ struct ReplayEvent {
 };
 
 /// More contact events of one case are left out: a pile has thousands.
-inline constexpr std::size_t kMostContactEvents = 60;
+inline constexpr std::size_t kMostContactEvents = 200;
 /// Two runs have diverged where a body is further from its twin than this part of the length of the scene.
 inline constexpr double kDivergenceFraction = 0.01;
 

@@ -194,7 +194,12 @@ export class ReplayStage implements ReplayActions {
     const found = find[to]();
     this.player.pause();
     if (!found) {
-      this.controls.say('There is no such event among the engines that are shown.');
+      const isContact = to === 'next' || to === 'previous';
+      this.controls.say(
+        isContact
+          ? `No ${to} contact event of the engines that are shown is kept: a run keeps its first ones.`
+          : 'There is no such event among the engines that are shown.',
+      );
       return;
     }
     this.setTime(found.event.time);

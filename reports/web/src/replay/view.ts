@@ -235,7 +235,7 @@ export class ReplayView {
   get legend(): ReturnType<typeof legendOf> {
     const shown = this.#sources.filter((s) => !s.ghost);
     return legendOf(this.options, this.#theme, this.#scales, {
-      finding: this.#finding?.finding ?? null,
+      finding: this.findingNotes ? (this.#finding?.finding ?? null) : null,
       contacts: shown.some((s) => s.events.some((e) => e.kind === 'contact_begin' || e.kind === 'audit')),
       joints: this.#scene.joints.length > 0,
       reference: this.#sources.some((s) => s.ghost),

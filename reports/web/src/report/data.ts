@@ -94,6 +94,17 @@ export interface StepCost {
 }
 
 /** Contacts that a run acted upon, against the exact oracle. */
+/** Place of a wrong normal. */
+export interface WrongNormal {
+  what: 'normal' | 'point_normal'; // point of the contact: the deepest one, or any
+  error: Maybe; // [rad]
+  pair: string; // "block|floor"
+  time: number; // [s]
+  step: number; // steps up to the frame
+  contact: number; // index among the contacts of the frame
+  distance: Maybe; // exact signed distance of the shapes [m]
+}
+
 export interface InRun {
   queries: number;
   overlapping: number;
@@ -103,6 +114,7 @@ export interface InRun {
   depth: Maybe; // [m]
   point: Maybe; // [m]
   worst: string;
+  normals?: WrongNormal[]; // the worst of each kind; none in stores without findings
   normalFlicker: Maybe;
   contactFlicker: Maybe;
 }

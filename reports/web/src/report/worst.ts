@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { type ContactFinding, findingKey } from '../common/finding.ts';
+import type { WrongNormal } from './data.ts';
 
 export interface Place {
   pair: string; // "block|floor"; "" where none is named
@@ -9,11 +10,11 @@ export interface Place {
   step: number | null; // steps up to the frame; null where an older store names none
   contact: number | null; // index among the stored contacts of the frame, from 0; null: none of them, or not known
   dt: number | null; // [s] of the run; null where none is named
-  what: string; // "missed", "spurious" or "normal"; "" if it is not known
+  what: string; // "missed", "spurious", "normal" or "point_normal"; "" if it is not known
   spec: string; // "" where none is named
 }
 
-const drawn = new Set(['missed', 'spurious', 'normal']);
+const drawn = new Set(['missed', 'spurious', 'normal', 'point_normal']);
 const kinds = new Set(['missed', 'spurious', 'spurious, far apart', 'normal']);
 
 /**
@@ -34,6 +35,18 @@ export function worstPlace(text: string): Place | null {
   const what = notes.find((note) => kinds.has(note)) ?? '';
   return { pair, bodies: pair ? pair.split('|') : [], time, step, contact, dt, what, spec };
 }
+
+/** The place of a wrong normal. */
+export const placeOfNormal = ({ what, pair, time, step, contact }: WrongNormal): Place => ({
+  pair,
+  bodies: pair.split('|'),
+  time,
+  step,
+  contact: contact < 0 ? null : contact,
+  dt: null,
+  what,
+  spec: '',
+});
 
 /** Key of the finding at the place; null where it is of no kind that can be drawn. */
 export const findingAt = (place: Place | null, auditor: string): string | null =>

@@ -150,4 +150,16 @@ describe('a metric of normals is drawn', { skip }, () => {
     assert.ok(Math.abs(label - degrees) < 0.006 * degrees, `${label}° is shown, ${degrees}° is the metric`);
     it.clean();
   });
+
+  test('the list of wrong normals leads to the same point', async () => {
+    await it.open('#contacts');
+    const link = it.page.locator('#worst-normals tr[data-what="point_normal"] a.frame').first();
+    const listed = Number.parseFloat((await link.textContent()) ?? '');
+    await link.click();
+    await it.page.waitForSelector('.replay .notes .angle:not(:empty)');
+    const label = Number.parseFloat(await it.text('.replay .notes .angle'));
+    assert.ok(Math.abs(label - listed) < 0.006 * listed, `${label}° is shown, ${listed}° is listed`);
+    assert.ok(await it.page.evaluate(() => document.activeElement?.matches('.replay canvas, .replay-place')));
+    it.clean();
+  });
 });

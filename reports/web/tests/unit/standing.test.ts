@@ -12,8 +12,9 @@ const file = JSON.stringify({
   bodies: ['low', 'high'].map((name) => ({ name, shapes: [{ sphere: { radius: 1 } }] })),
 });
 const times = [0, 1, 2, 3];
-const run = (bodies: Record<string, [x: number[], y: number[]]>): Case =>
+const run = (bodies: Record<string, [x: number[], y: number[]]>, metrics: object[] = []): Case =>
   ({
+    metrics,
     curves: {
       t: packed(times),
       series: [],
@@ -42,6 +43,19 @@ test('the first body to leave is named, and whether it falls', () => {
   ];
   assert.equal(text({ low: still, high: falls }), 'high falls at 2 s');
   assert.equal(text({ low: slides, high: falls }), 'low leaves its place at 1 s');
+});
+
+test('a body without a curve is known from the metric', () => {
+  const metrics = [
+    { name: 'rest_motion', subject: '', value: 0.5, at: 3 },
+    { name: 'rest_motion', subject: 'low', value: 0.2, at: 1 },
+    { name: 'rest_motion', subject: 'high', value: 0.5, at: 3 },
+  ];
+  assert.equal(
+    standingText(run({ low: still }, metrics), ['rest_motion'], 3, file),
+    'high leaves its place, by 0.5 m at 3 s',
+  );
+  assert.equal(standingText(run({ low: still }, metrics.slice(0, 2)), ['rest_motion'], 3, file), 'stands for 3 s');
 });
 
 test('nothing is said where nothing should rest', () => {

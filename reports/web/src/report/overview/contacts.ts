@@ -7,7 +7,7 @@ import { angle, format, full, type Maybe, toNumber } from '../../common/format.t
 import type { Audit, Column, InRun, Scenario } from '../data.ts';
 import { run, scenarioLink } from '../run.ts';
 import { chip, headRow, panel, scroll, specHead, stickyHead } from '../widgets.ts';
-import { placeQuery, worstPlace } from '../worst.ts';
+import { placeOfNormal, placeQuery, worstPlace } from '../worst.ts';
 import { worstNormals } from './worst_normals.ts';
 
 const scenarioHead = (name: string) =>
@@ -18,6 +18,17 @@ function worstOf(values: Maybe[]): Maybe {
   let worst: Maybe = null;
   for (const v of values) if (v !== null && (worst === null || !(toNumber(v) <= toNumber(worst)))) worst = v;
   return worst;
+}
+
+/** The worst normal, a link to its frame where its place is on record. */
+function normalLink(s: Scenario, column: Column, cases: Scenario['cases'], normal: Maybe): Child {
+  const at = cases.find((c) => c.inRun?.normal === normal);
+  const found = at?.inRun?.normals?.find((n) => n.what === 'normal');
+  const old = worstPlace(at?.inRun?.worst ?? '');
+  const place = found ? placeOfNormal(found) : old?.what === 'normal' ? old : null;
+  if (!at || !place) return angle(normal);
+  const href = scenarioLink(s.name, { spec: column.spec, ...placeQuery(place, at.dt) });
+  return el('a', { href, title: 'Show this frame' }, angle(normal));
 }
 
 function inRunCell(s: Scenario, column: Column): HTMLElement {
@@ -53,7 +64,7 @@ function inRunCell(s: Scenario, column: Column): HTMLElement {
     'td',
     { class: 'num', 'data-wrong': wrong, title },
     wrong ? linkTo((a, what) => a.missed + a.spurious > 0 && what !== 'normal', chip('fail', `${wrong} wrong`)) : null,
-    linkTo((a, what) => a.normal === normal && what === 'normal', angle(normal)),
+    normalLink(s, column, cases, normal),
     el('span', { class: 'bound' }, worst('depth') === null ? '' : `${format(worst('depth'))} m`),
     flicker > 0.01 ? el('span', { class: 'bound' }, `${(100 * flicker).toPrecision(2)} % blink`) : null,
   );

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Frames with the worst contact normals of each engine.
+// Frames with the worst contact normals of each engine: of the deepest point of a contact, or of another one that the run
+// acted upon.
 import { type Child, el } from '../../common/elements.ts';
 import { angle, format, full, type Maybe, timeStep, toNumber } from '../../common/format.ts';
-import type { Scenario } from '../data.ts';
+import type { Scenario, WrongNormal } from '../data.ts';
 import { engineLink, labelOf, run, scenarioLink } from '../run.ts';
-import { headRow, scroll } from '../widgets.ts';
-import { type Place, placeQuery, worstPlace } from '../worst.ts';
+import { headRow, metricName, scroll } from '../widgets.ts';
+import { type Place, placeOfNormal, placeQuery, worstPlace } from '../worst.ts';
 
 const perEngine = 3;
 const noticeable = 1e-4; // [rad], 0.006 degrees: less is rounding
@@ -16,56 +17,58 @@ interface Wrong {
   scenario: Scenario;
   spec: string;
   dt: number;
-  normal: Maybe; // [rad]
-  place: Place | null; // null: the run's worst error is a missed or false contact, whose place is the one on record
+  error: Maybe; // [rad]
+  place: Place | null; // null: an older store says no place
+  distance: Maybe; // exact signed distance there [m]
 }
 
-/** Contacts that runs acted upon, the worst first. */
-function wrongNormals(engine: string): Wrong[] {
-  const specs = new Set(run.columns.filter((c) => c.engine === engine).map((c) => c.spec));
-  const found: Wrong[] = [];
-  for (const scenario of run.scenarios)
-    for (const c of scenario.cases) {
-      if (!specs.has(c.spec) || !(toNumber(c.inRun?.normal) > noticeable)) continue;
-      const place = worstPlace(c.inRun?.worst ?? '');
-      found.push({
-        scenario,
-        spec: c.spec,
-        dt: c.dt,
-        normal: c.inRun?.normal ?? null,
-        place: place?.what === 'normal' ? place : null,
-      });
-    }
-  return found.sort((a, b) => toNumber(b.normal) - toNumber(a.normal));
+/** The worse of the two kinds; of a store without places the angle alone, and its place if the run's worst was a normal. */
+function worstOf(scenario: Scenario, c: Scenario['cases'][number]): Wrong | null {
+  if (!c.inRun) return null;
+  const { normals = [], normal, worst } = c.inRun;
+  const at = { scenario, spec: c.spec, dt: c.dt };
+  const found = normals.reduce<WrongNormal | null>(
+    (best, n) => (best === null || toNumber(n.error) > toNumber(best.error) ? n : best),
+    null,
+  );
+  if (found) return { ...at, error: found.error, place: placeOfNormal(found), distance: found.distance };
+  const place = worstPlace(worst);
+  return { ...at, error: normal, place: place?.what === 'normal' ? place : null, distance: null };
 }
 
-/** One scenario a line, so that one bad scene does not hide the others. */
+/** The worst first, one scenario a line, so that one bad scene does not hide the others. */
 function worstScenarios(engine: string): Wrong[] {
-  const seen = new Set<string>();
-  const worst: Wrong[] = [];
-  for (const w of wrongNormals(engine)) {
-    if (seen.has(w.scenario.name) || worst.length === perEngine) continue;
-    seen.add(w.scenario.name);
-    worst.push(w);
-  }
-  return worst;
+  const specs = new Set(run.columns.filter((c) => c.engine === engine).map((c) => c.spec));
+  const found = run.scenarios.flatMap((scenario) => {
+    const all = scenario.cases.filter((c) => specs.has(c.spec)).flatMap((c) => worstOf(scenario, c) ?? []);
+    const wrong = all.filter((w) => toNumber(w.error) > noticeable);
+    return wrong.sort((a, b) => toNumber(b.error) - toNumber(a.error)).slice(0, 1);
+  });
+  return found.sort((a, b) => toNumber(b.error) - toNumber(a.error)).slice(0, perEngine);
 }
 
 function row(w: Wrong, head: Child): HTMLElement {
   const href = scenarioLink(w.scenario.name, { spec: w.spec, ...placeQuery(w.place, w.dt) });
+  const deep = -toNumber(w.distance);
   return el(
     'tr',
-    null,
+    { 'data-what': w.place?.what },
     head,
-    el('td', { class: 'num', title: `${full(w.normal)} rad` }, angle(w.normal)),
+    el(
+      'td',
+      { class: 'num', title: `${full(w.error)} rad` },
+      el('a', { class: 'frame', href }, angle(w.error)),
+      w.place?.what === 'point_normal' ? el('span', { class: 'bound' }, 'one of its points') : null,
+    ),
+    el(
+      'td',
+      { class: 'num', title: `${full(w.distance)} m` },
+      Number.isFinite(deep) ? `${format(1e3 * deep, 3)} mm` : '',
+    ),
     el('td', null, w.scenario.title),
     el('td', null, w.place?.bodies.join(' and ') ?? ''),
     el('td', null, `${labelOf(w.spec)}, ${timeStep(w.dt)}`),
-    el(
-      'td',
-      null,
-      el('a', { class: 'frame', href }, w.place ? `show t = ${format(w.place.time)} s` : 'its contact audit'),
-    ),
+    el('td', null, w.place ? `t = ${format(w.place.time)} s` : 'in its contact audit'),
   );
 }
 
@@ -81,21 +84,28 @@ export function worstNormals(): Child {
           'tr',
           null,
           el('th', { class: 'sticky', scope: 'row' }, link),
-          el('td', { colspan: 5, class: 'muted' }, `none off by more than ${angle(noticeable)}`),
+          el('td', { colspan: 6, class: 'muted' }, `none off by more than ${angle(noticeable)}`),
         ),
       ];
     return worst.map((w, i) =>
       row(w, i === 0 ? el('th', { class: 'sticky', scope: 'rowgroup', rowspan: worst.length }, link) : null),
     );
   });
-  const heads = ['Engine', 'Normal off by', 'Scene', 'Between', 'Run', 'Frame'];
+  const heads = ['Engine', 'Normal off by', 'Overlap there', 'Scene', 'Between', 'Run', 'Frame'];
   return [
     el('h3', null, 'Where normals go wrong'),
+    el(
+      'p',
+      { class: 'muted small' },
+      'The angle between a normal that a run acted upon and the nearest exact one. Audited is the deepest point of a pair, in sampled frames; “one of its points” is another point, which the metric ',
+      metricName('normal_error'),
+      ' found, for pairs with a closed form alone. Deep in each other, two ways out may be nearly as short: the overlap stands beside the angle.',
+    ),
     scroll(
       el(
         'table',
         { id: 'worst-normals' },
-        headRow(heads, (i) => i === 1),
+        headRow(heads, (i) => i === 1 || i === 2),
         el('tbody', null, rows),
       ),
     ),

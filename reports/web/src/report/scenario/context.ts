@@ -83,4 +83,6 @@ export function showMoment(cursor: Cursor, time: number, focus: Focus): void {
   cursor.focus.set(focus);
   const stage = document.getElementById('replay') ?? document.getElementById('curves');
   stage?.scrollIntoView();
+  // Keys reach the picture from here on; before there is one, the place of it gets the focus.
+  stage?.querySelector<HTMLElement>('canvas, .replay-place')?.focus({ preventScroll: true });
 }

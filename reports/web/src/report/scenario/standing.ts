@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Whether what should rest does, in words: "stands for 3 s", "box_0_9_0 falls at 0.8 s".
-import { format } from '../../common/format.ts';
+import { format, toNumber } from '../../common/format.ts';
 import { bodyReach } from '../../replay/framing.ts';
 import { readScene, type Scene } from '../../replay/scene.ts';
 import { unpack } from '../charts/samples.ts';
@@ -39,10 +39,26 @@ export function firstToLeave(c: Case, scene: Scene): Left | null {
   return first;
 }
 
+/** The body that moved farthest by the metric, which sees all bodies; null where it stayed. Curves have some of them. */
+function farthest(c: Case, scene: Scene): { body: string; moved: number; time: number } | null {
+  let worst: { body: string; moved: number; time: number } | null = null;
+  for (const m of c.metrics) {
+    const index = m.name === 'rest_motion' ? scene.bodies.findIndex((b) => b.name === m.subject) : -1;
+    const moved = toNumber(m.value);
+    const reach = index < 0 ? 0 : bodyReach(scene, index);
+    if (!(reach > 0) || !Number.isFinite(reach) || !(moved > away * reach)) continue;
+    if (!worst || moved > worst.moved) worst = { body: m.subject, moved, time: toNumber(m.at) };
+  }
+  return worst;
+}
+
 /** A sentence for a run of a scenario in which bodies should rest; "" for any other. */
 export function standingText(c: Case, metrics: string[], duration: number, sceneText: string): string {
   if (!metrics.some((name) => atRest.test(name)) || !c.curves) return '';
-  const left = firstToLeave(c, readScene(JSON.parse(sceneText)));
+  const scene = readScene(JSON.parse(sceneText));
+  const left = firstToLeave(c, scene);
+  const far = left ? null : farthest(c, scene);
+  if (far) return `${far.body} leaves its place, by ${format(far.moved, 3)} m at ${format(far.time, 3)} s`;
   if (left === null) return `stands for ${format(duration)} s`;
   return `${left.body} ${left.falls ? 'falls' : 'leaves its place'} at ${format(left.time, 3)} s`;
 }
