@@ -49,11 +49,12 @@ bool isGraded(const ViewModel& view, std::size_t scenario) {
 /// there is none.
 double errorOf(const ViewModel& view, std::size_t scenario, const CaseRow& row) {
     if (row.outcome != Outcome::Completed) return kNoNumber;
-    if (row.accuracy.relative) return std::max(*row.accuracy.relative, results::gradeLimit(Grade::A));
+    const double least = view.negligibleError(scenario);
+    if (row.accuracy.relative) return std::max(*row.accuracy.relative, least);
     if (isGraded(view, scenario)) return kNoNumber;
     const MetricRow* m = findMetric(row, view.mainMetric(scenario).name);
     if (m == nullptr || !std::isfinite(m->value)) return kNoNumber;
-    return std::max(std::abs(m->value), results::gradeLimit(Grade::A) * m->scale.value_or(1.0));
+    return std::max(std::abs(m->value), least * m->scale.value_or(1.0));
 }
 
 /// The in-house engine's case that another is compared with; null where it has none.

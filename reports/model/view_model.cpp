@@ -8,6 +8,7 @@
 #include <limits>
 #include <tuple>
 
+#include "reports/encoding/json.hpp"
 #include "reports/encoding/text.hpp"
 #include "validation/results/clock.hpp"
 #include "validation/results/judgement.hpp"
@@ -15,6 +16,16 @@
 
 namespace rigor::report {
 namespace {
+
+/// Error up to which engines count as equal in a scenario.
+double negligibleOf(const results::ScenarioRow& scenario) {
+    const double least = results::gradeLimit(results::Grade::A);
+    if (scenario.text.find("\"negligible_error\"") == std::string::npos) return least;
+    const Json file = Json::parse(scenario.text, nullptr, false);
+    if (!file.is_object()) return least;
+    const Json value = file.value(Json::json_pointer("/negligible_error/value"), Json());
+    return value.is_number() ? std::max(least, value.get<double>()) : least;
+}
 
 using results::CaseRow;
 using results::MetricRow;
@@ -238,6 +249,7 @@ ViewModel::ViewModel(const Run& run) : run_(run), columns_(columnsOf(run)) {
     for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
         scenarioIndex.emplace(run.scenarios[i].name, i);
         mainMetrics_.push_back(chooseMain(run, run.scenarios[i]));
+        negligible_.push_back(negligibleOf(run.scenarios[i]));
     }
     for (std::size_t i = 0; i < columns_.size(); ++i) columnIndex.emplace(columns_[i].spec, i);
     cells_.resize(run.scenarios.size() * columns_.size());

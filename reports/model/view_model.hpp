@@ -67,8 +67,8 @@ struct Cell {
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// The relative error that the grade rests on over other engines' at the same time step; where no
-/// engine has a grade, the main metric. Errors within grade A count as its limit: what is exact to rounding
-/// does not make the next one look 1e9 times worse.
+/// engine has a grade, the main metric. Errors within grade A, or within what the scenario calls negligible, count as
+/// that limit: what is exact to rounding does not make the next one look 1e9 times worse.
 struct Ratios {
     double toBest = kNoNumber;  ///< ratio to the smallest
     double toOurs = kNoNumber;  ///< ratio to the in-house engine's in the same preset, or in its default one
@@ -163,6 +163,8 @@ class ViewModel {
         return cells_[scenario * columns_.size() + column];
     }
     const Totals& totals() const { return totals_; }
+    /// Relative error up to which engines count as equal: grade A's limit, or the scenario's `negligible_error`.
+    double negligibleError(std::size_t scenario) const { return negligible_[scenario]; }
     const Ratios& ratios(const results::CaseRow& row) const { return ratios_.at(&row); }
     /// One for each word that scenarios isolate, the most frequent first.
     std::vector<Mechanism> mechanisms() const;
@@ -178,6 +180,7 @@ class ViewModel {
     const results::Run& run_;
     std::vector<SpecColumn> columns_;
     std::vector<MainMetric> mainMetrics_;
+    std::vector<double> negligible_;
     std::vector<Cell> cells_;
     std::map<const results::CaseRow*, Ratios> ratios_;
     Totals totals_;

@@ -77,6 +77,24 @@ TEST(ViewModel, StandsBesideTheInHouseEngineInTheSamePresetElseItsDefault) {
     EXPECT_DOUBLE_EQ(ViewModel(run).ratios(run.cases[3]).toOurs, 0.5) << "else the default";
 }
 
+/// Grades do not depend on what is negligible between engines.
+TEST(ViewModel, ErrorsThatTheScenarioCallsNegligibleCountAsEqual) {
+    results::Run run = twoScenarios();
+    run.cases = {makeCase("a", "one", 0.01, 1e-4), makeCase("a", "two", 0.01, 9e-4),
+                 makeCase("a", "three", 0.01, 2e-3)};
+    EXPECT_DOUBLE_EQ(ViewModel(run).ratios(run.cases[1]).toBest, 9.0);
+    run.scenarios[0].text = R"({"negligible_error": {"value": 1e-4, "reason": "an overlap at the start"}})";
+    const ViewModel view(run);
+    EXPECT_DOUBLE_EQ(view.ratios(run.cases[0]).toBest, 1.0);
+    EXPECT_DOUBLE_EQ(view.ratios(run.cases[1]).toBest, 1.0) << "1e-4 of its scale of ten metres is 1 mm";
+    EXPECT_DOUBLE_EQ(view.ratios(run.cases[2]).toBest, 2.0);
+    for (const char* text :
+         {"{", "[]", R"({"negligible_error": 3})", R"({"negligible_error": {"value": "x"}})"}) {
+        run.scenarios[0].text = text;
+        EXPECT_DOUBLE_EQ(ViewModel(run).ratios(run.cases[1]).toBest, 9.0) << text;
+    }
+}
+
 /// Lines of one engine have one colour: dashes alone distinguish its columns.
 TEST(ViewModel, NoTwoColumnsOfAnEngineHaveTheSameDashes) {
     results::Run run = twoScenarios();

@@ -23,6 +23,13 @@ namespace {
 constexpr int kFormatVersion = 1;
 constexpr int kMaxSize = 1000000;
 
+/// Reports read it from the text of the file: it plays no part in a run.
+void readNegligibleError(const Node& node) {
+    node.isObject({"value", "reason"});
+    if (const auto value = node.require("value")) (void)value->number(1e-6, 1e-2);
+    if (const auto reason = node.require("reason")) (void)reason->text();
+}
+
 void readHeader(const Node& root, Scenario& s) {
     if (const auto n = root.require("rigor"); n && n->json() != kFormatVersion)
         n->problem("schema.version", "1, the version of this format");
@@ -36,6 +43,7 @@ void readHeader(const Node& root, Scenario& s) {
     if (const auto n = root.require("duration")) s.duration = n->number(1e-6, 3600.0);
     if (const auto n = root.find("size")) s.size = root.context().size = n->integer(1, kMaxSize);
     if (const auto n = root.find("time_limit")) s.timeLimit = n->number(0.1, 86400.0);
+    if (const auto n = root.find("negligible_error")) readNegligibleError(*n);
     if (const auto n = root.require("dt"))
         for (const Node& step : n->items()) s.timeSteps.push_back(step.timeStep());
     if (root.has("dt") && s.timeSteps.empty()) root["dt"].problem("value.range", "at least one time step");
@@ -140,11 +148,12 @@ Scenario readScenario(const JsonDocument& document, const std::string& file) {
     ReadContext context{file, &document, {}, 3};
     Scenario s;
     const Node root(document.value, "", context);
-    root.isObject({"rigor",   "name",      "title",     "description", "isolates", "source",
-                   "tags",    "dimension", "gravity",   "duration",    "dt",       "materials",
-                   "pairs",   "layers",    "bodies",    "generators",  "joints",   "forces",
-                   "events",  "observe",   "reference", "metrics",     "accept",   "known_deviations",
-                   "engines", "size",      "bench",     "time_limit"});
+    root.isObject({"rigor",      "name",      "title",      "description",      "isolates",
+                   "source",     "tags",      "dimension",  "gravity",          "duration",
+                   "dt",         "materials", "pairs",      "layers",           "bodies",
+                   "generators", "joints",    "forces",     "events",           "observe",
+                   "reference",  "metrics",   "accept",     "known_deviations", "engines",
+                   "size",       "bench",     "time_limit", "negligible_error"});
     std::deque<Json> made;  // generated nodes refer to it
     if (document.value.is_object()) {
         // Nothing else can be read if the dimension is missing.

@@ -246,7 +246,7 @@ std::string physicsOf(const std::string& scenarioText) {
     auto scenario = nlohmann::json::parse(scenarioText, nullptr, false);
     if (!scenario.is_object()) return scenarioText;
     for (const char* key : {"accept", "known_deviations", "title", "description", "source", "isolates",
-                            "tags", "metrics", "time_limit", "dt"})
+                            "tags", "metrics", "time_limit", "dt", "negligible_error"})
         scenario.erase(key);
     return scenario.dump();
 }

@@ -30,7 +30,8 @@ export const terms: Term[] = [
   },
   {
     name: '× best',
-    meaning: 'Relative error over that of the most accurate engine; errors within grade A count as equal.',
+    meaning:
+      'Relative error over that of the most accurate engine; errors within grade A, or within what the scenario calls negligible, count as equal.',
   },
   { name: '× ours', meaning: 'Relative error over that of the in-house engine in the same preset.' },
   {

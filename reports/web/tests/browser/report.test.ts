@@ -147,6 +147,20 @@ describe('the report of a real run', { skip }, () => {
     it.clean();
   });
 
+  test('a run that is far off names the settings that are not as requested', async () => {
+    const rows = query(
+      it.run,
+      `SELECT c.scenario, c.spec, c.dt FROM cases c JOIN ledger l ON l.case_id = c.id
+       WHERE c.grade IN ('D', 'E') AND c.verdict <> 'known deviation' AND l.realisation <> 'exact' LIMIT 1`,
+    ) as [string, string, number][];
+    const [scenario, spec, dt] = rows[0] ?? assert.fail('smoke has such a run');
+    await it.open(`#/scenario/${scenario}?dt=${dt}`);
+    const said = it.page.locator(`#verdicts tr[data-spec="${spec}"] [data-inexact] abbr`);
+    assert.ok((await said.count()) > 0);
+    assert.ok(await said.first().getAttribute('title'), 'with the value that the engine has');
+    it.clean();
+  });
+
   test('filters and sorts', async () => {
     await it.open('#scoreboard');
     const all = await rows();

@@ -145,7 +145,7 @@ export function trust(): HTMLElement | null {
       'In the order of: fewest runs lost or of grade E, then most within a hundredth of the scenario’s own scale (grade C or better), then the smallest error, then the least time of a step, all at the same ',
       'time step; steps are timed in scenes that can be graded. “× best” is the typical error over the most accurate engine’s, “× ours” over that of ',
       run.inHouse,
-      ' in the same preset; errors within grade A count as equal. An engine by itself: ',
+      ' in the same preset; errors within grade A, or within what a scenario calls negligible, count as equal. An engine by itself: ',
       [...new Set(run.columns.map((c) => c.engine))].map((e, i) => [
         i ? ', ' : '',
         el('a', { href: engineLink(e) }, e),

@@ -21,6 +21,17 @@ function prettyText(text: string): string {
   }
 }
 
+/** "relative errors up to 1e-4: reason"; "" where the scenario names none. */
+function negligibleText(text: string): string {
+  let negligible: { value?: number; reason?: string } | undefined;
+  try {
+    negligible = JSON.parse(text).negligible_error;
+  } catch {
+    return ''; // shown as it is stored, below
+  }
+  return negligible ? `relative errors up to ${negligible.value} count as equal: ${negligible.reason}` : '';
+}
+
 function neighbours(index: number): Child {
   if (run.single) return null;
   const link = (offset: number, text: string) => {
@@ -78,6 +89,7 @@ export function head(context: Context): HTMLElement {
     ['Reference', reference],
     ['Source', scenario.source],
     ['Of the reference', scenario.referenceSource === scenario.source ? '' : scenario.referenceSource],
+    ['Negligible', negligibleText(data.text)],
     ['Observed', scenario.observed.join(', ')],
     ['Scene', `${scenario.dimension}D, ${format(scenario.duration)} s`],
     ['Tags', tags(scenario.tags)],

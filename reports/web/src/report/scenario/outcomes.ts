@@ -10,6 +10,18 @@ import { standingText } from './standing.ts';
 
 const most = 6; // metrics of one case
 
+/** Settings that the engine does not have as the scenario requests them, of a run that is far off without a known reason. */
+function inexactText(c: Case): Child {
+  if (!['D', 'E'].includes(c.judged.grade) || c.shown === 'known_deviation') return null;
+  const inexact = c.ledger.filter((line) => line.realisation !== 'exact');
+  if (inexact.length === 0) return null;
+  const topic = ({ topic, resolved, reason }: (typeof inexact)[number], i: number): Child => [
+    i ? ', ' : '',
+    el('abbr', { class: 'term', title: `${resolved}${reason ? `: ${reason}` : ''}` }, words(topic)),
+  ];
+  return el('div', { class: 'muted', 'data-inexact': '' }, 'Not as requested in its ledger: ', inexact.map(topic));
+}
+
 /** Statements about every run, on accuracy and on the record, and its error compared with the others'. */
 export function verdicts(context: Context): HTMLElement | null {
   const ran = context.cases.filter((c) => c.shown !== 'unsupported');
@@ -25,7 +37,13 @@ export function verdicts(context: Context): HTMLElement | null {
       { class: c.spec === context.spec ? 'focus' : null, 'data-spec': c.spec },
       el('th', { class: 'sticky', scope: 'row' }, labelOf(c.spec)),
       el('td', { 'data-label': 'Accuracy' }, gradeChip(c.judged.grade)),
-      el('td', { class: 'small claim' }, c.judged.says, c.judged.orders ? el('div', null, c.judged.orders.says) : null),
+      el(
+        'td',
+        { class: 'small claim' },
+        c.judged.says,
+        c.judged.orders ? el('div', null, c.judged.orders.says) : null,
+        inexactText(c),
+      ),
       el('td', { class: 'num', 'data-label': '× best' }, ratio(c.judged.toBest) || '—'),
       el('td', { class: 'num', 'data-label': '× ours' }, ratio(c.judged.toOurs) || '—'),
       el(
