@@ -5,7 +5,7 @@
 import type { Cursor, Focus } from '../../common/cursor.ts';
 import { type Child, el } from '../../common/elements.ts';
 import { type ContactFinding, findingKey } from '../../common/finding.ts';
-import { format } from '../../common/format.ts';
+import { format, timeStep } from '../../common/format.ts';
 import { stepAt } from '../../common/steps.ts';
 import type { Case, Scenario, ScenarioData } from '../data.ts';
 import { run, scenarioLink } from '../run.ts';
@@ -21,6 +21,9 @@ export interface Context {
   cursor: Cursor; // shared by curves, tables and the replay
   leaving: (() => void)[]; // called when the page is left
 }
+
+/** Scenario and time step, as a plot says them in its file. */
+export const aboutOf = ({ scenario, dt }: Context): string => `${scenario.name}, time step ${timeStep(dt)}`;
 
 /** A section returns null when it has nothing to say. */
 export type Section = (context: Context) => HTMLElement | null;
