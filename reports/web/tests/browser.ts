@@ -93,7 +93,7 @@ export const makeHistory = once(() => synthetic('history'));
 export const makeCollide = once(() => {
   const folder = emptyFolder('collide');
   try {
-    program('bin/rigor', 'collide', 'analytic', '--engines', 'rigor,fcl', '--out', folder, '-q');
+    program('bin/rigor', 'collide', 'analytic', '--engines', 'rigor,fcl,box2d', '--out', folder, '-q');
   } catch {
     // an engine may be wrong: the files are written all the same
   }
