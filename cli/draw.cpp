@@ -15,9 +15,9 @@
 #include "adapters/interface/prepared_engine.hpp"
 #include "cli/command.hpp"
 #include "cli/guarded.hpp"
-#include "cli/png_picture.hpp"
 #include "cli/view/scene_lines.hpp"
 #include "engine/embedding/svg_lines.hpp"
+#include "reports/plots/drawing.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/runner/judge.hpp"
 #include "validation/runner/scenario_settings.hpp"
@@ -89,15 +89,38 @@ engine::SvgLines<S> pictureOf(const Scene& scene, const DrawArguments& a) {
     return picture;
 }
 
-/// The bytes of the file: PNG if its name ends so, else SVG.
+report::Drawing drawingOf(const engine::Picture& picture) {
+    report::Drawing drawing{static_cast<double>(picture.width), picture.height, {}};
+    for (const engine::Picture::Mark& mark : picture.marks) {
+        const std::string colour = engine::debugColour(mark.kind);
+        if (mark.isPoint)
+            drawing.add(report::DrawnCircle{mark.x0, mark.y0, engine::kPicturePointRadius, colour});
+        else
+            drawing.add(report::DrawnLine{mark.x0, mark.y0, mark.x1, mark.y1, {colour}});
+    }
+    return drawing;
+}
+
+void requireKnownEnding(const std::string& file) {
+    if (file == "-") return;
+    for (const char* ending : {".svg", ".png", ".pdf"})
+        if (file.ends_with(ending)) return;
+    throw std::invalid_argument("--out: found '" + file +
+                                "', expected a name that ends in .svg, .png or .pdf, or '-'");
+}
+
+/// The bytes of the file of a known ending; SVG for standard output.
 template <class S>
 std::string fileOf(const Scene& scene, const DrawArguments& a) {
     const engine::SvgLines<S> lines = pictureOf<S>(scene, a);
-    return a.out.ends_with(".png") ? pngOf(lines.picture(a.width)) : lines.text(a.width);
+    if (a.out.ends_with(".png")) return report::pngOf(drawingOf(lines.picture(a.width)));
+    if (a.out.ends_with(".pdf")) return report::pdfOf(drawingOf(lines.picture(a.width)));
+    return lines.text(a.width);
 }
 
 int drawHere(const DrawArguments& a) {
     (void)kindsOf(a.show, kShow);
+    requireKnownEnding(a.out);
     const std::unique_ptr<Drawn> drawn = runTo(a);
     const Scene& scene = drawn->scene;
     const std::string picture = drawn->scenario.dimension == 2 ? fileOf<engine::Space2d>(scene, a)
@@ -119,7 +142,7 @@ int drawHere(const DrawArguments& a) {
 void addDraw(CLI::App& app, Action& action) {
     auto a = std::make_shared<DrawArguments>();
     auto* command = app.add_subcommand(
-        "draw", "Draw a scenario at a time, as an engine has it, as an SVG or PNG picture");
+        "draw", "Draw a scenario at a time, as an engine has it, as an SVG, PNG or PDF picture");
     offerNames(command->add_option("SCENARIO", a->scenario, "Name or file")->required(), kScenarioNames);
     offerNames(command->add_option("-e,--engine", a->engine, "Engine spec (default: rigor)"), kEngineNames);
     command->add_option("--at", a->at, "Time [s]; the step nearest to it is drawn (default 0)");
@@ -127,8 +150,9 @@ void addDraw(CLI::App& app, Action& action) {
                         "Time step in seconds (0.004 or 1/240); default: the scenario's first");
     command->add_option("--set", a->overrides, "Override a scenario value: KEY=VALUE")
         ->allow_extra_args(false);
-    command->add_option("-o,--out", a->out,
-                        "File, a PNG if its name ends in .png, else SVG; '-' (default) for standard output");
+    command->add_option(
+        "-o,--out", a->out,
+        "File; its name ends in .svg, .png or .pdf; '-' (default) for SVG on standard output");
     command->add_option(
         "--show", a->show,
         "Some of outline, box, contact, normal, impulse, velocity, joint, island, with commas between "

@@ -19,8 +19,8 @@
 #include "reports/model/view_model.hpp"
 #include "reports/page/html.hpp"
 #include "reports/page/page_data.hpp"
+#include "reports/plots/line_plot.hpp"
 #include "reports/plots/study.hpp"
-#include "reports/plots/svg_plot.hpp"
 #include "reports/replay/data.hpp"
 #include "reports/summaries/junit.hpp"
 #include "reports/summaries/summary.hpp"
@@ -156,10 +156,9 @@ class ReportFolder {
         fs::remove(folder_ / name, ignored);
     }
     void writeCsv(const results::Run& run) {
-        const bool isLarge = run.cases.size() > limits_.cases;
         for (const char* name : {"results.csv", "fairness.csv"})
-            remove(name + std::string(isLarge ? "" : ".gz"));
-        if (!isLarge) {
+            remove(name + std::string(isLarge(run) ? "" : ".gz"));
+        if (!isLarge(run)) {
             write("results.csv", csvReport(run));
             if (!run.fairness.empty()) write("fairness.csv", fairnessCsv(run));
             return;
@@ -172,15 +171,19 @@ class ReportFolder {
     void writeData(const std::string& name, const std::string& content) {
         write(fs::path("data") / (name + ".js"), dataFile(name, content));
     }
-    /// The names of the two files.
-    std::vector<std::string> writePlot(const NamedPlot& plot) {
+    /// The names of the files.
+    std::vector<std::string> writePlot(const NamedPlot& plot, bool withPdf) {
         const std::string name = (fs::path("plots") / plot.name).string();
-        write(name + ".svg", plot.svg);
+        remove(name + ".pdf");
+        write(name + ".svg", svgOf(plot.drawing));
+        if (withPdf) write(name + ".pdf", pdfOf(plot.drawing));
         write(name + ".csv", plot.csv);
-        return {name + ".svg", name + ".csv"};
+        if (!withPdf) return {name + ".svg", name + ".csv"};
+        return {name + ".svg", name + ".pdf", name + ".csv"};
     }
-    /// A large run has the tables of its scenarios in CSV alone, neither in Markdown nor in LaTeX.
-    bool hasTablesInCsvAlone(const results::Run& run) const { return run.cases.size() > limits_.cases; }
+    /// A large run has its plots in SVG alone, and the tables of its scenarios in CSV alone, neither in Markdown nor in
+    /// LaTeX.
+    bool isLarge(const results::Run& run) const { return run.cases.size() > limits_.cases; }
     static std::vector<const char*> tableEndings(bool csvAlone) {
         return csvAlone ? std::vector{".csv"} : std::vector{".csv", ".md", ".tex"};
     }
@@ -214,8 +217,9 @@ ReportFolder writeScenario(const ViewModel& view, std::size_t scenario, Trajecto
                            ReportFolder folder) {
     const TrajectoryLoader load = [&](const results::CaseRow& row) { return trajectories.load(row, false); };
     std::vector<std::string> files;
-    if (const auto plot = scenarioPlot(view, scenario, load)) files = folder.writePlot(*plot);
-    for (const char* ending : folder.tableEndings(folder.hasTablesInCsvAlone(view.run())))
+    const bool isLarge = folder.isLarge(view.run());
+    if (const auto plot = scenarioPlot(view, scenario, load)) files = folder.writePlot(*plot, !isLarge);
+    for (const char* ending : folder.tableEndings(isLarge))
         files.push_back("tables/" + scenarioTableName(view.run().scenarios[scenario]) + ending);
     folder.writeData("scenario-" + std::to_string(scenario), scenarioJson(view, scenario, load, files));
     return folder;
@@ -258,26 +262,26 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory, std::vector<std
     if (!run.orders.empty()) folder.write("orders.csv", ordersCsv(run));
     const results::Run shown = withoutDerivedRuns(std::move(run));
     const ViewModel view(shown);
-    const bool isLarge = shown.cases.size() > limits.casesInPage;
+    const bool areBeside = shown.cases.size() > limits.casesInPage;
     folder.write("index.html", htmlReport(view, study ? studyPageJson(*study) : "",
-                                          isLarge ? CasesOfPage::Beside : CasesOfPage::Inside));
+                                          areBeside ? CasesOfPage::Beside : CasesOfPage::Inside));
     clearDataFolder(runDirectory / "data");
-    if (isLarge)
+    if (areBeside)
         for (std::size_t i = 0; i < caseFiles(view).size(); ++i)
             folder.writeData("cases-" + std::to_string(i), casesJson(view, i));
-    if (isLarge) folder.writeData("lists", listsJson(view));
+    if (areBeside) folder.writeData("lists", listsJson(view));
     fs::create_directories(runDirectory / "plots");
     writeScenarios(view, trajectories, folder);
     trajectories.checkOthers();
     folder.write("summary.md", markdownSummary(view) + problemsMarkdown(trajectories.problems()));
-    for (const auto& plot : refinementPlots(view)) folder.writePlot(plot);
+    for (const auto& plot : refinementPlots(view)) folder.writePlot(plot, !folder.isLarge(shown));
     if (study)
-        for (const auto& plot : studyPlots(*study)) folder.writePlot(plot);
+        for (const auto& plot : studyPlots(*study)) folder.writePlot(plot, !folder.isLarge(shown));
     if (fs::is_empty(runDirectory / "plots")) fs::remove(runDirectory / "plots");
     fs::create_directories(runDirectory / "tables" / "scenarios");
     for (const auto& entry : tableEntries())
         for (const auto& table : entry.make(view))
-            folder.writeTable(table, table.ofScenario && folder.hasTablesInCsvAlone(shown));
+            folder.writeTable(table, table.ofScenario && folder.isLarge(shown));
     if (problems != nullptr) problems->assign(trajectories.problems().begin(), trajectories.problems().end());
     return folder.written;
 }

@@ -18,7 +18,7 @@ struct ReportLimits {
     std::size_t casesInPage =
         2000;  ///< the cases of the overview move to data/cases-<n>.js (about 4.5 KB a case), its lists to data/lists.js
     /// results.csv and fairness.csv become .csv.gz (about 14 KB a case uncompressed); tables of single scenarios are CSV
-    /// alone
+    /// alone, plots have no PDF (about 15 KB a plot)
     std::size_t cases = 5000;
     std::size_t tableRows = 2000;  ///< NAME.csv, .md and .tex of a table become NAME.csv.gz
 };

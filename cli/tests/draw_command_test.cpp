@@ -64,6 +64,18 @@ TEST(DrawCommand, WritesPngFiles) {
     EXPECT_THAT(svg.out, testing::StartsWith("<svg "));
 }
 
+TEST(DrawCommand, WritesPdfFiles) {
+    const fs::path file = fs::path(RIGOR_BINARY_DIR) / ("drawn-" + std::to_string(getpid()) + ".pdf");
+    const auto drawn = rigor("draw box_stack --at 0.1 --width 300 --out " + file.string());
+    ASSERT_EQ(drawn.code, 0) << drawn.out;
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    EXPECT_THAT(text.str(), testing::StartsWith("%PDF-"));
+    EXPECT_THAT(text.str(), HasSubstr("%%EOF"));
+    EXPECT_THAT(text.str(), HasSubstr("/MediaBox [ 0 0 225 ")) << "300 pixels of 1/96 inch, in points";
+    fs::remove(file);
+}
+
 TEST(DrawCommand, ShowsWhereTheBodiesAreAtThatTime) {
     const auto begin = rigor("draw free_flight --at 0 --show outline", false);
     const auto later = rigor("draw free_flight --at 0.5 --show outline,velocity", false);
@@ -94,6 +106,10 @@ TEST(DrawCommand, SaysWhatItDoesNotTake) {
     EXPECT_THAT(late.out, HasSubstr("--at"));
     const auto missing = rigor("draw box_stack_2d --engine fcl");
     EXPECT_EQ(missing.code, 4) << missing.out;
+    const auto ending = rigor("draw box_stack_2d --out stack.tiff");
+    EXPECT_EQ(ending.code, 2);
+    EXPECT_THAT(ending.out,
+                HasSubstr("--out: found 'stack.tiff', expected a name that ends in .svg, .png or .pdf"));
     const auto nowhere = rigor("draw box_stack_2d --out /nowhere/at/all.svg");
     EXPECT_EQ(nowhere.code, 2);
     EXPECT_THAT(nowhere.out, HasSubstr("No such file"));

@@ -7,7 +7,7 @@
 
 #include "reports/encoding/text.hpp"
 #include "reports/model/refinements.hpp"
-#include "reports/plots/svg_plot.hpp"
+#include "reports/plots/line_plot.hpp"
 #include "validation/results/values.hpp"
 
 namespace rigor::report {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The tables of a study as pictures: what is drawn against what, decided once for the page and the SVG files.
+// The tables of a study as pictures: what is drawn against what, decided once for the page and the files of plots.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/plots/svg_plot.hpp"
+#include "reports/plots/line_plot.hpp"
 
 namespace rigor::report {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Charts of a study as SVG: lines over an axis, or a bar for each row.
+// Charts of a study as drawings: lines over an axis, or a bar for each row.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "reports/encoding/json.hpp"
@@ -44,17 +43,6 @@ Plot linesOf(const StudyChart& chart) {
 
 constexpr double kBarLeft = 250, kBarWidth = 400, kBarHeight = 22, kBarTop = 46, kBarPage = 760;
 
-std::string at(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2f", value);
-    return text;
-}
-
-std::string words(double x, double y, const std::string& text, const char* anchor, const char* more = "") {
-    return "<text x=\"" + at(x) + "\" y=\"" + at(y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" +
-           escapeMarkup(text) + "</text>\n";
-}
-
 /// Share of the longest bar; by logarithms from the decade below the least.
 class BarScale {
   public:
@@ -85,35 +73,29 @@ std::string valueText(const StudyPoint& p) {
     return shortNumber(*p.value) + (p.note.empty() ? "" : " (" + p.note + ")");
 }
 
-std::string svgBars(const StudyChart& chart) {
-    const double height = kBarTop + kBarHeight * chart.points.size() + 34;
+Drawing drawBars(const StudyChart& chart) {
+    constexpr double kLongest = kBarWidth - 110;
+    Drawing out{kBarPage, kBarTop + kBarHeight * static_cast<double>(chart.points.size()) + 34, {}};
     const BarScale scale(chart);
-    std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 " + at(height) +
-                      "\" width=\"760\" height=\"" + at(height) +
-                      "\" font-family=\"system-ui, sans-serif\" font-size=\"12\" fill=\"#22272e\">\n"
-                      "<rect width=\"760\" height=\"" +
-                      at(height) + "\" fill=\"#ffffff\"/>\n";
-    out += words(16, 24, titleOf(chart), "start", " font-size=\"15\" font-weight=\"600\"");
+    out.add(DrawnText{.x = 16, .y = 24, .text = titleOf(chart), .size = 15, .bold = true});
     double y = kBarTop;
     for (const auto& p : chart.points) {
-        const double length =
-            p.value && std::isfinite(*p.value) ? (kBarWidth - 110) * scale.length(*p.value) : 0.0;
-        out += words(kBarLeft - 8, y + 15, p.label, "end");
-        out += "<rect x=\"" + at(kBarLeft) + "\" y=\"" + at(y + 3) + "\" width=\"" + at(length) +
-               "\" height=\"" + at(kBarHeight - 6) + "\" fill=\"" + paletteColour(0) + "\"/>\n";
-        const double end = p.low && p.high ? (kBarWidth - 110) * scale.length(*p.high) : length;
+        const double length = p.value && std::isfinite(*p.value) ? kLongest * scale.length(*p.value) : 0.0;
+        out.add(DrawnText{kBarLeft - 8, y + 15, p.label, Anchor::End});
+        out.add(DrawnRectangle{kBarLeft, y + 3, length, kBarHeight - 6, paletteColour(0)});
+        const double end = p.low && p.high ? kLongest * scale.length(*p.high) : length;
         if (p.low && p.high)
-            out += "<line x1=\"" + at(kBarLeft + (kBarWidth - 110) * scale.length(*p.low)) + "\" y1=\"" +
-                   at(y + 11) + "\" x2=\"" + at(kBarLeft + end) + "\" y2=\"" + at(y + 11) +
-                   "\" stroke=\"#22272e\" stroke-width=\"1.5\"/>\n";
-        out += words(kBarLeft + std::max(length, end) + 6, y + 15, valueText(p), "start");
+            out.add(DrawnLine{kBarLeft + kLongest * scale.length(*p.low),
+                              y + 11,
+                              kBarLeft + end,
+                              y + 11,
+                              {kTextColour, 1.5, {}}});
+        out.add(DrawnText{kBarLeft + std::max(length, end) + 6, y + 15, valueText(p)});
         y += kBarHeight;
     }
-    out += "<line x1=\"" + at(kBarLeft) + "\" y1=\"" + at(kBarTop) + "\" x2=\"" + at(kBarLeft) + "\" y2=\"" +
-           at(y) + "\" stroke=\"#5b6470\"/>\n";
-    return out +
-           words(kBarLeft, y + 20, withUnit(chart) + (chart.logarithmic ? ", logarithmic" : ""), "start") +
-           "</svg>\n";
+    out.add(DrawnLine{kBarLeft, kBarTop, kBarLeft, y, {"#5b6470"}});
+    out.add(DrawnText{kBarLeft, y + 20, withUnit(chart) + (chart.logarithmic ? ", logarithmic" : "")});
+    return out;
 }
 
 /// A row for each point or bar.
@@ -137,7 +119,7 @@ std::vector<NamedPlot> studyPlots(const Json& study) {
         const std::string name = "study-" + fileNamePart(chart.part) + "-" + fileNamePart(chart.metric) +
                                  (chart.scenario.empty() ? "" : "-" + fileNamePart(chart.scenario));
         plots.push_back(
-            {name, chart.axis.empty() ? svgBars(chart) : svgPlot(linesOf(chart)), chartCsv(chart)});
+            {name, chart.axis.empty() ? drawBars(chart) : drawPlot(linesOf(chart)), chartCsv(chart)});
     }
     return plots;
 }

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "reports/model/view_model.hpp"
-#include "reports/plots/svg_plot.hpp"
+#include "reports/plots/line_plot.hpp"
 #include "reports/summaries/summary.hpp"
 #include "reports/tables/refinements.hpp"
 #include "reports/tests/synthetic_run.hpp"
@@ -56,7 +56,7 @@ TEST(Refinements, LogarithmicAxes) {
     Plot plot;
     plot.logarithmic = plot.logarithmicX = plot.marked = true;
     plot.lines = {{"a", "#000000", {}, {1e-3, 1e-2, 1e-1, 0.0}, {1e-2, 1e-1, 1.0, 5.0}}};
-    const auto svg = svgPlot(plot);
+    const auto svg = svgOf(drawPlot(plot));
     std::vector<double> x;
     for (auto at = svg.find("<circle cx=\""); at != std::string::npos; at = svg.find("<circle cx=\"", at + 1))
         x.push_back(std::stod(svg.substr(at + 12)));

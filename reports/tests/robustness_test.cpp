@@ -78,6 +78,12 @@ void expectSound(const std::vector<fs::path>& written, const fs::path& folder) {
             EXPECT_EQ(text.find("nan"), std::string::npos) << file;
             EXPECT_EQ(text.find("inf"), std::string::npos) << file;
         }
+        if (file.extension() == ".svg") {
+            EXPECT_TRUE(fs::exists(fs::path(file).replace_extension(".pdf"))) << file;
+        }
+        if (file.extension() == ".pdf") {
+            EXPECT_TRUE(text.starts_with("%PDF-")) << file;
+        }
         if (file.extension() == ".md" || file.extension() == ".html" || file.extension() == ".xml") {
             EXPECT_EQ(text.find("[31m<script>"), std::string::npos) << file;  // CSV and LaTeX know no markup
         }
@@ -120,6 +126,22 @@ TEST(Robustness, AReportIsMadeOfARunThatWentBadly) {
     // A second time over the first: the same files, the same bytes.
     EXPECT_EQ(writeReports(folder), written);
     EXPECT_EQ(readText(folder / "summary.md"), summary);
+    fs::remove_all(folder);
+}
+
+/// A PDF of an earlier report does not stay beside newer plots.
+TEST(Robustness, ALargeRunHasNoPdf) {
+    const auto run = synthetic::makeRun(1);
+    const fs::path folder = writeFolder("rigor-no-pdf", run);
+    const auto pdfs = [&] {
+        const fs::directory_iterator files(folder / "plots");
+        return std::count_if(begin(files), end(files),
+                             [](const auto& f) { return f.path().extension() == ".pdf"; });
+    };
+    writeReports(folder);
+    EXPECT_GT(pdfs(), 0);
+    writeReports(folder, nullptr, {.cases = run.cases.size() - 1});
+    EXPECT_EQ(pdfs(), 0);
     fs::remove_all(folder);
 }
 

@@ -93,8 +93,8 @@ TEST(StudyCharts, ARunThatBrokeIsNoPointButIsReported) {
     const auto plots = studyPlots(study);
     ASSERT_EQ(plots.size(), 1u);
     EXPECT_EQ(plots[0].name, "study-broken-rest_sink");
-    EXPECT_NE(plots[0].svg.find(">non_finite</text>"), std::string::npos);
-    EXPECT_NE(plots[0].svg.find(">not run</text>"), std::string::npos);
+    EXPECT_NE(svgOf(plots[0].drawing).find(">non_finite</text>"), std::string::npos);
+    EXPECT_NE(svgOf(plots[0].drawing).find(">not run</text>"), std::string::npos);
 
     for (auto& row : rows) row["metrics"]["rest_sink"]["value"] = nullptr;
     EXPECT_TRUE(studyCharts({{"parts", {studyPart("empty", rows)}}}).empty());
@@ -106,7 +106,7 @@ TEST(StudyCharts, BarsByLogarithms) {
     for (const double value : {1e-6, 1e-4, 1e-2})
         rows.push_back(
             studyRow("stack", "v" + std::to_string(rows.size()), 0.01, {}, {{"rest_sink", value}}));
-    const auto svg = studyPlots({{"parts", {studyPart("bars", rows)}}}).at(0).svg;
+    const auto svg = svgOf(studyPlots({{"parts", {studyPart("bars", rows)}}}).at(0).drawing);
     std::vector<double> widths;
     for (auto at = svg.find("\" y=\""); at != std::string::npos; at = svg.find("\" y=\"", at + 1)) {
         const auto rect = svg.rfind('<', at);

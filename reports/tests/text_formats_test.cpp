@@ -11,7 +11,7 @@
 #include "reports/encoding/text.hpp"
 #include "reports/model/view_model.hpp"
 #include "reports/page/page_data.hpp"
-#include "reports/plots/svg_plot.hpp"
+#include "reports/plots/line_plot.hpp"
 #include "reports/summaries/junit.hpp"
 #include "reports/summaries/summary.hpp"
 #include "reports/summaries/terminal.hpp"
@@ -232,9 +232,11 @@ TEST(Svg, IsWellFormedWithCurvesInsideTheFrame) {
         const auto plot = scenarioPlot(view, i, synthetic::makeLoader(run));
         ASSERT_TRUE(plot) << i;
         EXPECT_EQ(plot->name.find('/'), std::string::npos);
-        EXPECT_NE(plot->svg.find("<path d=\"M"), std::string::npos);
-        EXPECT_EQ(plot->svg.find("nan"), std::string::npos);
-        EXPECT_EQ(plot->svg.find("inf"), std::string::npos);
+        const std::string svg = svgOf(plot->drawing);
+        EXPECT_NE(svg.find("<path d=\"M"), std::string::npos);
+        EXPECT_NE(svg.find(", time step 1/"), std::string::npos);
+        EXPECT_EQ(svg.find("nan"), std::string::npos);
+        EXPECT_EQ(svg.find("inf"), std::string::npos);
     }
     EXPECT_FALSE(scenarioPlot(view, 0, [](const auto&) { return std::nullopt; }));
 }

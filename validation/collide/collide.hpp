@@ -26,6 +26,10 @@ struct CollideTolerance {
     double angle = 1e-6;  ///< angle of the normal from the nearest minimiser [rad]
 };
 
+/// Eight units in the last place of single precision: rounding of a few operations, as lengths over the size of a scene,
+/// and as angles.
+inline constexpr double kSingleRounding = 8.0 / (1 << 23);
+
 /// Judgement of one result. Order: the first that applies.
 enum class CollideVerdict {
     Ok,
@@ -69,7 +73,9 @@ struct CollideAnswer {
     std::string message;   ///< reason why there is no result
 
     std::optional<double> distanceError;  ///< |signedDistance - truth| [m]
-    std::optional<double> normalAngle;    ///< angle to the nearest minimiser [rad]
+    /// Angle to the nearest minimiser [rad]. Of a continuum `CollideTruth` has samples alone: no value for a normal that
+    /// its excess shows to be right, an upper bound for another one.
+    std::optional<double> normalAngle;
     /// Excess of the overlap along the result's normal over the least overlap (or lack of distance) [m]: 0
     /// for every minimiser, even where they are a continuum.
     std::optional<double> normalExcess;
@@ -108,6 +114,7 @@ struct CollideKind {
 
 struct CollideRun {
     std::vector<adapter::EngineSpec> specs;
+    std::vector<bool> isSingle;  ///< true for a spec of single precision
     CollideTolerance tolerance;
     std::vector<CollideCase> cases;
     std::vector<CollideSummary> summaries;  ///< summaries by spec
@@ -136,6 +143,8 @@ CollideRun runCollide(const std::vector<scenario::CollisionFile>& files,
 
 /// The truth of one case: the oracle's where it has the shapes, else the file's.
 CollideTruth truthOf(const scenario::CollisionCase& c, const CollideTolerance& tolerance);
+/// The tolerance for an engine of single precision: no less than the rounding of the shapes' own coordinates.
+CollideTolerance singleTolerance(const scenario::CollisionCase& c, const CollideTolerance& tolerance);
 /// Sets errors and verdict of a result from the truth.
 void judgeAnswer(const scenario::CollisionCase& c, const CollideTruth& truth,
                  const CollideTolerance& tolerance, CollideAnswer& answer);

@@ -6,6 +6,7 @@
 //   overlap   wrong where sd < -touch is called apart or sd > touch is called overlapping
 //   depth     |found - sd| <= max(touch, relative |sd|) (+ the accuracy of a value that comes from the file)
 //   normal    angle to the nearest minimiser <= angle, or excess sd - sep(n) <= the tolerance of the depth
+//   An engine of single precision: touch and angle are at least its rounding, over the size of the scene.
 //
 // sep(n) is the gap between the supporting planes along n [CameronCulley1986]: at most sd, and equal to it
 // for the minimising directions only. It judges ties and continua of directions without listing them.
@@ -14,6 +15,7 @@
 #include <cstdio>
 
 #include "validation/collide/collide.hpp"
+#include "validation/metrics/mechanics.hpp"
 #include "validation/metrics/metric_parts.hpp"
 #include "validation/oracle/oracle.hpp"
 #include "validation/runner/judge.hpp"
@@ -32,6 +34,14 @@ double allowedLength(const CollideTruth& truth, const CollideTolerance& toleranc
 /// Largest coordinate or size: rounding of the files' own numbers.
 double roundingOf(const CollisionCase& c) {
     return 1e-14 * std::max({1.0, norm(c.a.pose.position), norm(c.b.pose.position)});
+}
+
+/// Bound on the coordinates of the bounded shapes [m].
+double sizeOf(const CollisionCase& c) {
+    scenario::Body a, b;
+    a.shapes = {c.a};
+    b.shapes = {c.b};
+    return std::max(reachOf(a), reachOf(b));
 }
 
 /// The gap along one direction is a lower bound of the signed distance that can be checked by itself.
@@ -124,6 +134,13 @@ CollideTruth truthOf(const CollisionCase& c, const CollideTolerance& tolerance) 
     return truth;
 }
 
+CollideTolerance singleTolerance(const CollisionCase& c, const CollideTolerance& tolerance) {
+    CollideTolerance single = tolerance;
+    single.touch = std::max(tolerance.touch, kSingleRounding * sizeOf(c));
+    single.angle = std::max(tolerance.angle, kSingleRounding);
+    return single;
+}
+
 namespace {
 
 /// Distance of a point from the surface of a shape.
@@ -161,6 +178,8 @@ void judgeAnswer(const CollisionCase& c, const CollideTruth& truth, const Collid
         const auto along =
             separationAlong(c.a.geometry, c.a.pose, c.b.geometry, c.b.pose, c.dimension, *answer.normal);
         if (along) answer.normalExcess = std::max(0.0, truth.signedDistance - *along);
+        if (truth.continuum && along && *answer.normalExcess <= allowedLength(truth, tolerance))
+            answer.normalAngle.reset();
     }
     answer.pointError = pointErrorOf(c, truth, answer);
     answer.verdict = verdictOf(truth, tolerance, answer);

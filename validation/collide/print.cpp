@@ -68,8 +68,9 @@ Json answerJson(const std::string& spec, const CollideAnswer& a, int dimension) 
     return out;
 }
 
-Json summaryJson(const CollideSummary& s) {
+Json summaryJson(const CollideSummary& s, bool isSingle) {
     return {{"name", s.spec},
+            {"precision", isSingle ? "f32" : "f64"},
             {"asked", s.queried},
             {"answered", s.answered},
             {"unsupported", s.unsupported},
@@ -246,11 +247,13 @@ Json collideJson(const CollideRun& run) {
              {"tolerance",
               {{"touch", run.tolerance.touch},
                {"relative", run.tolerance.relative},
-               {"angle", run.tolerance.angle}}},
+               {"angle", run.tolerance.angle},
+               {"single", kSingleRounding}}},
              {"summary", Json::array()},
              {"kinds", Json::array()},
              {"cases", Json::array()}};
-    for (const CollideSummary& s : run.summaries) out["summary"].push_back(summaryJson(s));
+    for (std::size_t i = 0; i < run.summaries.size(); ++i)
+        out["summary"].push_back(summaryJson(run.summaries[i], run.isSingle[i]));
     for (const CollideKind& k : countKinds(run))
         for (std::size_t i = 0; i < run.specs.size(); ++i)
             out["kinds"].push_back({{"kind", k.kind},

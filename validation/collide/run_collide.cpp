@@ -128,13 +128,22 @@ void judgeAll(CollideRun& run, int jobs, const std::atomic<bool>& interrupted) {
             c.truth.source = "none";
             if (!c.query.unsupported.empty()) continue;
             c.truth = truthOf(c.query, run.tolerance);
-            for (CollideAnswer& answer : c.answers) judgeAnswer(c.query, c.truth, run.tolerance, answer);
+            const CollideTolerance single = singleTolerance(c.query, run.tolerance);
+            for (std::size_t spec = 0; spec < c.answers.size(); ++spec)
+                judgeAnswer(c.query, c.truth, run.isSingle[spec] ? single : run.tolerance, c.answers[spec]);
         }
     };
     std::vector<std::thread> others;
     for (int i = 1; i < jobs; ++i) others.emplace_back(work);
     work();
     for (std::thread& thread : others) thread.join();
+}
+
+/// The precision that a spec chooses, else that of the library.
+bool isSingle(const adapter::EngineSpec& spec, const fs::path& binary) {
+    const auto chosen = spec.options.find("precision");
+    if (chosen != spec.options.end()) return chosen->second == "f32";
+    return describeEngine(spec.text(), binary).info.precision == "f32";
 }
 
 }  // namespace
@@ -182,6 +191,7 @@ CollideRun runCollide(const std::vector<scenario::CollisionFile>& files,
     CollideRun run;
     run.specs = specs;
     run.tolerance = options.tolerance;
+    for (const auto& spec : specs) run.isSingle.push_back(isSingle(spec, options.binary));
     for (const auto& file : files)
         for (const auto& c : file.cases)
             run.cases.push_back({c, file.file.string(), {}, std::vector<CollideAnswer>(specs.size())});

@@ -93,7 +93,7 @@ export const makeHistory = once(() => synthetic('history'));
 export const makeCollide = once(() => {
   const folder = emptyFolder('collide');
   try {
-    program('bin/rigor', 'collide', 'analytic', '--engines', 'rigor,fcl', '--out', folder, '-q');
+    program('bin/rigor', 'collide', 'analytic', '--engines', 'rigor,fcl,box2d', '--out', folder, '-q');
   } catch {
     // an engine may be wrong: the files are written all the same
   }
@@ -180,6 +180,27 @@ export function reportOf(make: () => string): Opened {
   after(() => it.close?.());
   return it;
 }
+
+/** Parts of a saved figure. */
+export const figureOf = (page: Page, text: string) =>
+  page.evaluate((svg) => {
+    const parsed = new DOMParser().parseFromString(svg, 'image/svg+xml');
+    const all = (selector: string) => [...parsed.querySelectorAll(selector)];
+    const number = (node: Element | null | undefined, name: string) => Number(node?.getAttribute(name));
+    const dashOf = (node: Element) => node.getAttribute('stroke-dasharray');
+    const frame = parsed.querySelector('clipPath rect');
+    return {
+      fault: parsed.querySelector('parsererror')?.textContent ?? undefined,
+      width: number(parsed.documentElement, 'width'),
+      texts: all('text').map((node) => node.textContent ?? ''),
+      lines: all('[data-line]').map((node) => node.getAttribute('data-line') ?? ''),
+      samples: all('[data-line]').map((node) => node.querySelectorAll('circle').length),
+      dashes: all('[data-line] > path:first-child').map(dashOf),
+      legend: all('.legend path').map(dashOf),
+      legendAt: Math.min(...all('.legend text').map((node) => number(node, 'x'))),
+      frameEnd: number(frame, 'x') + number(frame, 'width'),
+    };
+  }, text);
 
 /** Waits until what was requested so far is drawn. */
 export const drawn = (page: Page): Promise<unknown> =>

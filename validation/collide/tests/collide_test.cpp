@@ -131,6 +131,50 @@ TEST(Judge, SetsOfNormals) {
     EXPECT_EQ(judged(balls(0.0), answer(-1.5, odd)), CollideVerdict::Ok) << "concentric: every direction";
 }
 
+/// The nearest sample of a continuum is no measure of a normal between two of them.
+TEST(Judge, ANormalOfAContinuumHasAnAngleWhereItIsWrongAlone) {
+    scenario::CollisionCase c;
+    c.a.geometry = scenario::Cylinder{1.0, 2.0};
+    c.b.geometry = scenario::Cylinder{1.0, 2.0};
+    const CollideTolerance tolerance;
+    const CollideTruth truth = truthOf(c, tolerance);
+    ASSERT_TRUE(truth.continuum);
+    const auto angleOf = [&](Vec3 normal) {
+        CollideAnswer a = answer(truth.signedDistance, normal);
+        judgeAnswer(c, truth, tolerance, a);
+        return std::pair(a.verdict, a.normalAngle);
+    };
+    const double turn = 0.123456;
+    const Vec3 side =
+        norm(cross(truth.normals[0], truth.normals[1])) > 0.1 ? truth.normals[1] : truth.normals[2];
+    const Vec3 axis = cross(truth.normals[0], side) / norm(cross(truth.normals[0], side));
+    const Vec3 between = std::cos(turn) * truth.normals[0] + std::sin(turn) * cross(axis, truth.normals[0]);
+    EXPECT_EQ(angleOf(between), std::pair(CollideVerdict::Ok, std::optional<double>()));
+    const Vec3 tilted = (between + 0.5 * axis) / norm(between + 0.5 * axis);
+    EXPECT_EQ(angleOf(tilted).first, CollideVerdict::WrongNormal);
+    EXPECT_GT(angleOf(tilted).second.value_or(0.0), 0.4);
+}
+
+/// Eight roundings of the largest coordinate, 1.5 m here, are 1.4e-6 m.
+TEST(Judge, SinglePrecisionIsJudgedByItsRounding) {
+    const auto c = balls(1.0);
+    const CollideTolerance tolerance, single = singleTolerance(c, tolerance);
+    const CollideTruth truth = truthOf(c, tolerance);
+    const auto verdict = [&](double off, const CollideTolerance& by) {
+        CollideAnswer a = answer(-0.5 + off, Vec3{1, 0, 0});
+        judgeAnswer(c, truth, by, a);
+        return a.verdict;
+    };
+    EXPECT_EQ(verdict(1e-6, tolerance), CollideVerdict::WrongDepth);
+    EXPECT_EQ(verdict(1e-6, single), CollideVerdict::Ok);
+    EXPECT_EQ(verdict(2e-6, single), CollideVerdict::WrongDepth);
+    auto far = c;
+    far.a.pose.position = {100, 0, 0};
+    EXPECT_NEAR(singleTolerance(far, tolerance).touch, 101 * 8 / std::pow(2.0, 23), 1e-12);
+    EXPECT_EQ(singleTolerance(c, {1e-3, 1e-6, 0.1}).touch, 1e-3)
+        << "a wider tolerance of the user stays";
+}
+
 TEST(Judge, ShapesTheOracleLacksAreJudgedByTheFile) {
     scenario::CollisionCase c;
     c.dimension = 2;  // a cylinder is no 2D shape
@@ -229,6 +273,7 @@ TEST(Print, JsonHasRoundTripDigits) {
     EXPECT_EQ(c.at("truth").at("source"), "oracle");
     EXPECT_EQ(c.at("answers").at(0).at("verdict"), "ok");
     EXPECT_EQ(json.at("summary").at(0).at("name"), "double_auditor");
+    EXPECT_EQ(json.at("summary").at(0).at("precision"), "f64");
     EXPECT_NE(collideText(run, false).find("double_auditor"), std::string::npos);
 }
 

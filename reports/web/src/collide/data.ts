@@ -41,9 +41,10 @@ export interface CollideCase {
 
 export interface CollideRun {
   left_out?: number; // right cases that are in collide.json alone
-  tolerance: { touch: number; relative: number; angle: number };
+  tolerance: { touch: number; relative: number; angle: number; single: number };
   summary: {
     name: string;
+    precision: 'f32' | 'f64';
     unsupported: number;
     answered: number;
     failed: number;

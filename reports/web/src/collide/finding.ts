@@ -41,6 +41,8 @@ export function findingOf(c: CollideCase, answer: Answer): ContactFinding | null
     shapes: [0, 0],
     contact: -1,
     said,
+    ...(said === null && Number.isFinite(distance) ? { depth: -distance } : {}),
+    by: answer.engine,
     exact,
   };
 }

@@ -25,6 +25,7 @@ const data = JSON.parse(document.getElementById('collide-data')?.textContent ?? 
 const engines = data.summary.map((s) => s.name);
 const right = new Set(['ok', 'undecided', 'unsupported']);
 const isWrong = (answer: Answer) => !right.has(answer.verdict);
+const symbolOf = (answer: Answer) => (isWrong(answer) ? '✗' : answer.verdict === 'ok' ? '✓' : '–');
 const mostRows = 200;
 
 const section = (id: string, title: string, ...content: Child[]) =>
@@ -44,6 +45,21 @@ const head = (titles: [text: string, isNumber: boolean][]) =>
 const numbers = (...values: Child[]) => values.map((v) => el('td', { class: 'num' }, v));
 const metres = (value: Maybe | undefined) => (value === null || value === undefined ? '—' : `${format(value)} m`);
 
+/** Difference from the exact solution up to which a result is right. */
+function toleranceText(): string {
+  const { touch, relative, angle: radians, single } = data.tolerance;
+  const singles = data.summary.filter((s) => s.precision === 'f32').map((s) => s.name);
+  const few = (value: number) => value.toExponential(1).replace('.0e', 'e');
+  return (
+    `A result is right within ${few(touch)} m or ${few(relative)} of the distance, and a normal of an overlap within ` +
+    `${few(radians)} rad of an exact one, or where no more depth is lost along it. Overlap or not is judged beyond ` +
+    `${few(touch)} m of touching; normals and depths in the table are those of deeper overlaps.` +
+    (singles.length > 0
+      ? ` ${singles.join(', ')}: single precision, so within ${few(single)} of the largest coordinate, and ${few(single)} rad.`
+      : '')
+  );
+}
+
 function summary(): HTMLElement {
   const titles = [
     'Answered',
@@ -53,8 +69,8 @@ function summary(): HTMLElement {
     'False',
     'Wrong depth',
     'Wrong normal',
-    'Normal, worst',
-    'Depth, worst',
+    'Normal of overlaps, worst',
+    'Depth of overlaps, worst',
     'Median',
   ];
   const rows = data.summary.map((s) =>
@@ -67,7 +83,8 @@ function summary(): HTMLElement {
     ),
   );
   const heads: [string, boolean][] = [['Engine', false], ...titles.map((t): [string, boolean] => [t, true])];
-  return section('summary', 'Engines', scroll(el('table', { class: 'full' }, head(heads), el('tbody', null, rows))));
+  const table = el('table', { class: 'full' }, head(heads), el('tbody', null, rows));
+  return section('summary', 'Engines', scroll(table), el('p', { class: 'small muted' }, toleranceText()));
 }
 
 /** One frame in which nothing moves. */
@@ -199,9 +216,10 @@ function cases(): HTMLElement {
             type: 'button',
             'aria-pressed': String(a === answer),
             'data-engine': a.engine,
+            title: a.verdict,
             onclick: () => show(c, a.engine),
           },
-          `${isWrong(a) ? '✗' : '✓'} ${a.engine}`,
+          `${symbolOf(a)} ${a.engine}`,
         ),
       ),
     );

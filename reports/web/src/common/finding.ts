@@ -18,6 +18,8 @@ export interface ContactFinding {
   contact: number; // place among the stored contacts of the frame, -1: none of them
   /** The engine's deepest contact; null: it found none. */
   said: { normal: Point; depth: number; pointA: Point; pointB: Point } | null;
+  /** Depth that it reported without a normal and points [m]. */
+  depth?: number;
   /** Engine that was queried at the poses of the run; none where the contact is the run's own. */
   by?: string;
   /** Null where no exact method is known. */

@@ -9,7 +9,7 @@ import '../report/charts.css';
 import '../report/widths.css';
 import './style.css';
 import { type Child, el } from '../common/elements.ts';
-import { counted, duration, inShownUnit, shownUnit, toNumber, words } from '../common/format.ts';
+import { counted, duration, inShownUnit, shownUnit, timeStep, toNumber, words } from '../common/format.ts';
 import type { Line } from '../report/charts/line.ts';
 import { lineSample } from '../report/charts/line_sample.ts';
 import { drawAllPlots, dropPlots } from '../report/charts/live_plots.ts';
@@ -20,7 +20,7 @@ import type { History, Series } from './data.ts';
 import { type Mark, marksOf, weight, weightOf } from './marks.ts';
 import { factor, listOf, section, sign } from './parts.ts';
 import { closeReplay, replayBox } from './replays.ts';
-import { caseKey, ownName, seriesNames } from './series.ts';
+import { caseAt, caseKey, ownName, seriesNames } from './series.ts';
 
 const data = JSON.parse(document.getElementById('history-data')?.textContent ?? '{}') as History;
 const palette = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#8C6D1F'];
@@ -74,10 +74,13 @@ function scenarioNode(all: Series[], replay: string | null, chosen: (key: string
   const first = all[0] as Series;
   const nameOf = seriesNames(all, data.pair);
   const timed = all.filter((s) => s.time.some((t) => t !== null));
+  const steps = new Set(all.flatMap((s) => s.outcome.map((_, run) => toNumber(caseAt(s, run).dt))));
   const plot = (of: 'error' | 'time', list: Series[], title: string, unit: string) =>
     plotCard({
       title,
       name: `${first.scenario}: ${title}`,
+      about: steps.size === 1 ? `time step ${timeStep(first.dt)}` : '',
+      yTitle: title,
       unit,
       xTitle: 'run',
       wholeX: true,

@@ -61,7 +61,8 @@ export function findingNotes(finding: ContactFinding, length: number): Note[] {
   const notes: Note[] = [];
   if (said) notes.push({ at: along(at, said.normal, length), text: finding.by ?? 'engine', kind: 'engine' });
   if (exact) notes.push({ at: along(at, exact, exactLength * length), text: 'exact', kind: 'exact' });
-  if (!said) notes.push({ at, text: `no contact of ${speaker(finding)}`, kind: 'engine' });
+  const missing = (finding.depth ?? 0) > 0 ? 'normal' : 'contact';
+  if (!said) notes.push({ at, text: `no ${missing} of ${speaker(finding)}`, kind: 'engine' });
   if (said && exact && finding.what === 'depth') {
     const apart = -(finding.exact?.distance ?? Number.NaN);
     const kind = apart < 0 ? 'distance' : 'depth';

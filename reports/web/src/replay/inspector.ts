@@ -69,6 +69,7 @@ export function findingRows(finding: ContactFinding, withTitle = true): HTMLElem
     ...row('exact', exactly ?? 'unknown', exactly === null ? '' : unit, `${key}Exact`),
   ];
   const angle = said && nearest ? degrees(angleBetween(said.normal, nearest)) : null;
+  const depth = said?.depth ?? finding.depth;
   const apart = exact ? -exact.distance : null;
   const ties = exact?.normals.length ?? 0;
   return [
@@ -81,7 +82,7 @@ export function findingRows(finding: ContactFinding, withTitle = true): HTMLElem
     ...(angle ? row('angle between', angle, '', 'angle') : []),
     ...pair('normal', 'normal', said && three(said.normal, 0), nearest && three(nearest, 0)),
     ...(ties > 1 ? row('', `nearest of ${ties} exact normals`, '', 'ties') : []),
-    ...pair('depth', 'depth', said && mm(said.depth), apart === null ? null : mm(apart), 'mm'),
+    ...pair('depth', 'depth', depth === undefined ? null : mm(depth), apart === null ? null : mm(apart), 'mm'),
     ...pair('point on A', 'witnessA', said && three(said.pointA, 0), exact && three(exact.pointA, 0), 'm'),
     ...pair('point on B', 'witnessB', said && three(said.pointB, 0), exact && three(exact.pointB, 0), 'm'),
   ];

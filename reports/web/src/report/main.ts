@@ -141,7 +141,7 @@ function bars(): void {
     .getElementById('foot')
     ?.append(
       `The hosts of this comparison are the authors of one of the engines in it, ${run.inHouse}. `,
-      'Beside this page: results.csv, summary.md, junit.xml, results.sqlite; tables/ as CSV, Markdown and LaTeX; plots/ as SVG with their data as CSV; trajectories/ in HDF5.',
+      'Beside this page: results.csv, summary.md, junit.xml, results.sqlite; tables/ as CSV, Markdown and LaTeX; plots/ as SVG and PDF with their data as CSV; trajectories/ in HDF5.',
     );
 }
 

@@ -49,6 +49,7 @@ function problemNode(problem: SolveProblem, index: number): HTMLElement {
     plotCard({
       title: `Residual over ${over === 'done' ? 'iterations' : 'time'}`,
       name: `${name}: residual over ${over === 'done' ? 'iterations' : 'time'}`,
+      yTitle: 'residual',
       unit: '1',
       xTitle,
       xUnit,

@@ -38,6 +38,25 @@ describe('the page of collision queries', { skip }, () => {
     it.clean();
   });
 
+  test('names the tolerances, and marks neither right nor wrong what was not answered', async () => {
+    const text = async () => (await it.text('#summary p')) ?? '';
+    await open('spheres_concentric', 'fcl');
+    assert.match(await text(), /within 1e-9 m or 1e-6 of the distance/);
+    assert.match(await text(), /box2d: single precision, so within 9\.5e-7 of the largest coordinate/);
+    assert.equal(await it.text('#cases [data-engine="box2d"]'), '– box2d');
+    assert.equal(await it.text('#cases [data-engine="rigor"]'), '✓ rigor');
+    assert.equal(await it.text('#cases [data-engine="fcl"]'), '✗ fcl');
+    it.clean();
+  });
+
+  test('an overlap without a normal has its depth', async () => {
+    await open('spheres_concentric', 'fcl');
+    assert.equal(await it.text('.replay .notes .engine'), 'no normal of fcl');
+    assert.match(await it.text('.replay [data-quantity="depthEngine"]'), /^1500 mm$/);
+    assert.equal(await it.text('.replay [data-quantity="normalEngine"]'), 'none');
+    it.clean();
+  });
+
   test('draws the normal of the engine and the exact one of each case', async () => {
     const cases = record().cases.filter(
       (c) => c.dimension === 3 && c.truth.witness_a && (c.truth.normals?.length ?? 0) === 1,

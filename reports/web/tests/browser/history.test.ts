@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { describe, test } from 'node:test';
 import type { History } from '../../src/history/data.ts';
 import { caseKey, firstMoment } from '../../src/history/series.ts';
-import { makeHistory, makeRunOf, program, reportOf, screenshots, skip, smokeRun } from '../browser.ts';
+import { figureOf, makeHistory, makeRunOf, program, reportOf, screenshots, skip, smokeRun } from '../browser.ts';
 
 function dataOf(folder: string): History {
   const page = readFileSync(join(folder, 'index.html'), 'utf8');
@@ -33,6 +33,34 @@ describe('the history of three runs', { skip }, () => {
     assert.match(text, /×1\.2 \(1\.10 … 1\.30\)/);
     assert.equal(await it.page.locator('#changes code').count(), 3, 'commands are marked up');
     await it.page.screenshot({ path: join(screenshots, 'history.png'), fullPage: true });
+    it.clean();
+  });
+
+  test('saves a plot that was never in view, without the lines that have no value', async () => {
+    await it.open();
+    const card = it.page.locator('#scenarios .chart').last();
+    assert.equal(await card.locator('canvas').count(), 0, 'it is far below');
+    const svg = await it.page.evaluate(
+      () =>
+        new Promise<string>((done) => {
+          URL.createObjectURL = (blob) => {
+            void (blob as Blob).text().then(done);
+            return 'data:,';
+          };
+          const menu = [...document.querySelectorAll<HTMLSelectElement>('#scenarios .chart select.save')].at(-1);
+          if (!menu) return;
+          menu.value = 'svg';
+          menu.dispatchEvent(new Event('change'));
+        }),
+    );
+    const figure = await figureOf(it.page, svg);
+    assert.ok(figure.lines.length > 0);
+    assert.ok(
+      figure.samples.every((n) => n > 0),
+      figure.samples.join(),
+    );
+    for (const run of ['1', '2', '3']) assert.ok(figure.texts.includes(run), figure.texts.join());
+    assert.ok(figure.texts.includes('time of a step [s]'));
     it.clean();
   });
 

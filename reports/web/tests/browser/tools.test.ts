@@ -7,7 +7,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, test } from 'node:test';
-import { drawn, reportOf, screenshots, skip, smokeRun, watched } from '../browser.ts';
+import { drawn, figureOf, reportOf, screenshots, skip, smokeRun, watched } from '../browser.ts';
 
 describe('tools of the replay', { skip }, () => {
   const it = reportOf(smokeRun);
@@ -186,17 +186,20 @@ describe('tools of the replay', { skip }, () => {
     const csv = (await save('csv')).data.toString().trim().split('\n');
     assert.match(csv[0] ?? '', /^line,t \[s\],/);
     assert.ok(csv.length > 100 && csv.every((row) => row.split(',').length === 3));
-    const svg = (await save('svg')).data.toString();
-    const drawn = await it.page.evaluate((text) => {
-      const parsed = new DOMParser().parseFromString(text, 'image/svg+xml');
-      return {
-        fault: parsed.querySelector('parsererror')?.textContent,
-        lines: parsed.querySelectorAll('path[clip-path]').length,
-      };
-    }, svg);
-    assert.equal(drawn.fault, undefined);
-    assert.equal(drawn.lines, new Set(csv.slice(1).map((row) => row.split(',')[0])).size);
-    assert.equal((await save('png')).data.subarray(1, 4).toString(), 'PNG');
+    const svg = await save('svg');
+    assert.match(svg.name, /^slide_and_stop-time-step-1-\d+-s-block-position-x\.svg$/);
+    const figure = await figureOf(it.page, svg.data.toString());
+    assert.equal(figure.fault, undefined);
+    assert.deepEqual(new Set(figure.lines), new Set(csv.slice(1).map((row) => row.split(',')[0])));
+    assert.equal(figure.texts.at(-2), 'block: position x');
+    assert.match(figure.texts.at(-1) ?? '', /^slide_and_stop, time step 1\/\d+ s$/);
+    for (const title of ['t [s]', 'block: position x [m]']) assert.ok(figure.texts.includes(title), title);
+    assert.deepEqual(figure.legend, figure.dashes, 'the legend has the dashes of the lines');
+    assert.ok(figure.dashes.some((dash) => dash) && figure.dashes.some((dash) => !dash));
+    assert.ok(figure.legendAt >= figure.frameEnd, 'the legend is beside the curves');
+    const png = (await save('png')).data;
+    assert.equal(png.subarray(1, 4).toString(), 'PNG');
+    assert.equal(png.readUInt32BE(16), 2 * figure.width, 'the PNG is the same figure');
     it.clean();
   });
 

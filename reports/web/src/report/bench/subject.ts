@@ -39,6 +39,7 @@ function growth(subject: Subject): HTMLElement | null {
   const card = plotCard({
     title,
     name: `${subject.name}: growth`,
+    yTitle: `time per ${per}`,
     unit: 's',
     xTitle: first.sizeUnit,
     xUnit: '',

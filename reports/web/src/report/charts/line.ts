@@ -23,6 +23,8 @@ export interface Line {
 export interface Plot {
   title: Child;
   name: string; // name for screen readers and tests
+  about?: string; // scenario and time step, for the plot as a file
+  yTitle: string; // quantity, without its unit
   unit: string;
   xTitle: string;
   xUnit: string;

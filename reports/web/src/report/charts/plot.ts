@@ -56,7 +56,7 @@ export function plotCard(plot: Plot): HTMLElement {
     const kind = menu.value as 'csv' | 'svg' | 'png';
     menu.value = '';
     make();
-    if (drawn) void savePlot(kind, plot, drawn, log, colourOf);
+    if (drawn) void savePlot(kind, plot, drawn, log);
   };
   const menu = el(
     'select',

@@ -104,7 +104,7 @@ function scaling(columns: Column[]): HTMLElement[] {
     ['Cost of a step over moving bodies', 'moving bodies', (s: Step) => s.bodies ?? 0],
     ['Cost of a step over contacts', 'mean number of contacts', (s: Step) => toNumber(s.contacts)],
   ] as const;
-  const common = { unit: 's', xUnit: '', logX: true, logY: true, tall: true };
+  const common = { yTitle: 'time of a step', unit: 's', xUnit: '', logX: true, logY: true, tall: true };
   const cards = axes.flatMap(([title, xTitle, over]) => {
     const lines = columns.map((c) => scalingLines(c, over)).filter(has);
     return lines.length ? [plotCard({ ...common, title, name: title, xTitle, lines })] : [];
@@ -132,6 +132,7 @@ const accuracy = (columns: Column[]): HTMLElement[] => {
     plotCard({
       title,
       name: 'accuracy over cost',
+      yTitle: 'relative error',
       unit: '',
       xTitle: 'time of a step [s]',
       xUnit: 's',

@@ -5,7 +5,7 @@
 import type { Cursor, Focus } from '../../common/cursor.ts';
 import { type Child, el } from '../../common/elements.ts';
 import { type ContactFinding, findingKey } from '../../common/finding.ts';
-import { format } from '../../common/format.ts';
+import { format, timeStep } from '../../common/format.ts';
 import { stepAt } from '../../common/steps.ts';
 import type { Case, Scenario, ScenarioData } from '../data.ts';
 import { run, scenarioLink } from '../run.ts';
@@ -21,6 +21,9 @@ export interface Context {
   cursor: Cursor; // shared by curves, tables and the replay
   leaving: (() => void)[]; // called when the page is left
 }
+
+/** Scenario and time step, as a plot says them in its file. */
+export const aboutOf = ({ scenario, dt }: Context): string => `${scenario.name}, time step ${timeStep(dt)}`;
 
 /** A section returns null when it has nothing to say. */
 export type Section = (context: Context) => HTMLElement | null;
@@ -61,7 +64,7 @@ export function moment(
 export function fileLinks({ data }: Context, folder: 'tables' | 'plots', what: string): HTMLElement | null {
   const files = run.single ? [] : (data.files ?? []).filter((file) => file.startsWith(`${folder}/`));
   if (files.length === 0) return null;
-  const formats: Record<string, string> = { csv: 'CSV', md: 'Markdown', tex: 'LaTeX', svg: 'SVG' };
+  const formats: Record<string, string> = { csv: 'CSV', md: 'Markdown', tex: 'LaTeX', svg: 'SVG', pdf: 'PDF' };
   const ending = (file: string) => file.slice(file.lastIndexOf('.') + 1);
   const link = (file: string, i: number) => [i ? ' · ' : '', el('a', { href: file }, formats[ending(file)] ?? file)];
   return el('p', { class: 'small noprint', 'data-files': folder }, `${what}: `, files.map(link));

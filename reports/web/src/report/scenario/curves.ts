@@ -14,7 +14,7 @@ import { bodyNames, type CurvePlot, collectCurves, referenceLabel, wantsLog } fr
 import type { Column } from '../data.ts';
 import { columnOf, columnsAmong, engineColour } from '../run.ts';
 import { panel, select } from '../widgets.ts';
-import { type Context, fileLinks } from './context.ts';
+import { aboutOf, type Context, fileLinks } from './context.ts';
 
 const lineStyle = (spec: string) => {
   const column = columnOf(spec);
@@ -24,7 +24,8 @@ const lineStyle = (spec: string) => {
 
 const fewSamples = 50; // curves with at most so many samples have a mark at each
 
-function card({ cursor, cases, spec }: Context, plot: CurvePlot): HTMLElement {
+function card(context: Context, plot: CurvePlot): HTMLElement {
+  const { cursor, cases, spec } = context;
   const lines = plot.curves.map((curve) => ({
     ...lineStyle(curve.spec),
     ...(curve.spec === '' ? { label: referenceLabel(cases) } : {}),
@@ -36,6 +37,8 @@ function card({ cursor, cases, spec }: Context, plot: CurvePlot): HTMLElement {
   return plotCard({
     title: plot.title,
     name: plot.title,
+    about: aboutOf(context),
+    yTitle: plot.title,
     unit: plot.unit,
     xTitle: 't [s]',
     xUnit: 's',

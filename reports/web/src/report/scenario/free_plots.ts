@@ -13,7 +13,7 @@ import { dropPlots } from '../charts/live_plots.ts';
 import { plotCard } from '../charts/plot.ts';
 import { columnOf, engineColour, labelOf } from '../run.ts';
 import { panel, select } from '../widgets.ts';
-import type { Context } from './context.ts';
+import { aboutOf, type Context } from './context.ts';
 import { type Choice, decodeChoice, withPlots } from './free_choice.ts';
 
 const isPair = (of: string) => of.includes('|');
@@ -65,6 +65,8 @@ function card(context: Context, replay: Replay, choice: Choice, remove: () => vo
   const node = plotCard({
     title,
     name: title,
+    about: aboutOf(context),
+    yTitle: `${subject}: ${quantity?.title ?? choice.y}`,
     unit: quantity?.unit ?? '',
     xTitle: over ? `${over.title}${unit(over)}` : 't [s]',
     xUnit: over?.unit ?? 's',

@@ -126,7 +126,18 @@ export function refinement({ scenario, data, cursor }: Context): HTMLElement | n
     const cards = axes.flatMap(([title, xTitle, columns, overCost]) => {
       const lines = refinementLines(data, metric, columns, overCost);
       if (lines.length === 0) return [];
-      const axes = { xTitle, xUnit: 's', unit: orders[0]?.unit ?? '', logX: true, logY: true, tall: true };
+      const yTitle = words(metric);
+      const about = `${scenario.name}, ${yTitle}`;
+      const axes = {
+        about,
+        yTitle,
+        xTitle,
+        xUnit: 's',
+        unit: orders[0]?.unit ?? '',
+        logX: true,
+        logY: true,
+        tall: true,
+      };
       return [plotCard({ title, name: title, ...axes, lines: lines.filter((l) => !cursor.hidden.value.has(l.key)) })];
     });
     body.replaceChildren(

@@ -55,7 +55,14 @@ export function studyChart(chart: StudyChart): HTMLElement {
   const attributes = { 'data-metric': chart.metric, 'data-kind': chart.axis ? 'lines' : 'bars' };
   if (chart.axis) {
     const lines = studyLines(chart).map((line, i) => lineOf(line.label, line.points, i, chart.unit));
-    const axes = { xTitle: chart.axis, xUnit: '', logX: chart.logarithmicX, logY: chart.logarithmic, zeroY: true };
+    const axes = {
+      yTitle: chart.metric,
+      xTitle: chart.axis,
+      xUnit: '',
+      logX: chart.logarithmicX,
+      logY: chart.logarithmic,
+      zeroY: true,
+    };
     const card = plotCard({ title, name: title, unit, ...axes, tall: true, lines });
     const key = lines.map((l) =>
       el('span', null, el('i', { class: 'swatch', style: `background:${l.colour}` }), l.label),

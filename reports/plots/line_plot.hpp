@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A small SVG line plot: axes with round ticks, grid, legend, linear or logarithmic values.
+// A small line plot: axes with round ticks, grid, legend beside it, linear or logarithmic values.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,7 @@
 
 #include "reports/model/trajectory_loader.hpp"
 #include "reports/model/view_model.hpp"
+#include "reports/plots/drawing.hpp"
 
 namespace rigor::report {
 
@@ -22,13 +23,14 @@ struct PlotLine {
 
 struct Plot {
     std::string title, xLabel, yLabel;
+    std::string subtitle;       ///< second line of the title; may be empty
     bool logarithmic = false;   ///< values <= 0 are gaps then
     bool logarithmicX = false;  ///< x <= 0 is a gap then
     bool marked = false;        ///< a dot at every point
     std::vector<PlotLine> lines;
 };
 
-std::string svgPlot(const Plot& plot);
+Drawing drawPlot(const Plot& plot);
 
 /// Round tick values covering [least, greatest]: steps of 1, 2 or 5 times a power of ten.
 std::vector<double> niceTicks(double least, double greatest, int about);
@@ -39,7 +41,8 @@ std::string plotCsv(const Plot& plot);
 
 struct NamedPlot {
     std::string name;  ///< name of its files, without an ending
-    std::string svg, csv;
+    Drawing drawing;
+    std::string csv;
 };
 /// The picture and its data.
 NamedPlot namedPlot(const std::string& name, const Plot& plot);

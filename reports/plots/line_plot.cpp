@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "reports/plots/svg_plot.hpp"
+#include "reports/plots/line_plot.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+#include <functional>
 #include <limits>
 
 #include "reports/encoding/text.hpp"
@@ -17,18 +17,18 @@
 namespace rigor::report {
 namespace {
 
-constexpr double kWidth = 760, kHeight = 420, kLeft = 78, kRight = 190, kTop = 40, kBottom = 50;
+constexpr double kWidth = 760, kHeight = 420, kLeft = 78, kLeastRight = 190, kBottom = 50;
+constexpr double kTop = 40, kTopWithSubtitle = 54;
+constexpr double kLegendLine = 18,
+                 kLegendText = 44;  ///< heights of its lines; offset of its texts from the axes
+constexpr double kCharacter = 6.8;  ///< typical width of a character of size 12
+
+constexpr const char *kGrid = "#e3e6ea", *kAxis = "#5b6470";
 
 /// Okabe and Ito's palette: distinguishable with every common colour vision. The page uses the same, in the
 /// same order.
 constexpr std::array<const char*, kPaletteSize> kPalette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                          "#E69F00", "#56B4E9", "#7A5C00"};
-
-std::string coordinate(double value) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.2f", value);
-    return buffer;
-}
 
 struct Range {
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
@@ -51,37 +51,39 @@ struct Range {
     }
 };
 
-std::string label(double x, double y, const std::string& text, const char* anchor, const char* more = "") {
-    return "<text x=\"" + coordinate(x) + "\" y=\"" + coordinate(y) + "\" text-anchor=\"" + anchor + "\"" +
-           more + ">" + escapeMarkup(text) + "</text>\n";
-}
-
-std::string segment(double x1, double y1, double x2, double y2, const char* stroke) {
-    return "<line x1=\"" + coordinate(x1) + "\" y1=\"" + coordinate(y1) + "\" x2=\"" + coordinate(x2) +
-           "\" y2=\"" + coordinate(y2) + "\" stroke=\"" + stroke + "\"/>\n";
-}
-
 double logarithm(double v) {
     return v > 0.0 ? std::log10(v) : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// Axes and their place in a drawing, which grows with its legend.
 struct Frame {
     Range x, y;
     bool logarithmic, logarithmicX;
+    double width = kWidth, height = kHeight, top = kTop, right = kWidth - kLeastRight;
+
+    double bottom() const { return height - kBottom; }
 
     double value(double v) const { return logarithmic ? logarithm(v) : v; }
     double place(double v) const { return logarithmicX ? logarithm(v) : v; }
     double px(double transformed) const {
-        return kLeft + (transformed - x.least) / (x.greatest - x.least) * (kWidth - kLeft - kRight);
+        return kLeft + (transformed - x.least) / (x.greatest - x.least) * (right - kLeft);
     }
     double py(double transformed) const {
-        return kHeight - kBottom -
-               (transformed - y.least) / (y.greatest - y.least) * (kHeight - kTop - kBottom);
+        return bottom() - (transformed - y.least) / (y.greatest - y.least) * (bottom() - top);
     }
 };
 
+void makeRoom(const Plot& plot, Frame& frame) {
+    if (!plot.subtitle.empty()) frame.top = kTopWithSubtitle;
+    std::size_t longest = 0;
+    for (const auto& line : plot.lines) longest = std::max(longest, displayWidth(line.label));
+    frame.width = frame.right + std::max(kLeastRight, kLegendText + kCharacter * longest + 8);
+    frame.height = std::max(kHeight, frame.top + kLegendLine * (plot.lines.size() + 1));
+}
+
 Frame frameOf(const Plot& plot) {
     Frame frame{{}, {}, plot.logarithmic, plot.logarithmicX};
+    makeRoom(plot, frame);
     for (const auto& line : plot.lines)
         for (std::size_t i = 0; i < line.x.size(); ++i) {
             const double v = frame.value(line.y[i]), at = frame.place(line.x[i]);
@@ -117,71 +119,66 @@ std::vector<std::pair<double, std::string>> ticksOfX(const Frame& frame) {
     return ticks;
 }
 
-std::string axes(const Plot& plot, const Frame& frame) {
-    std::string out;
-    const double right = kWidth - kRight, bottom = kHeight - kBottom;
+/// The same of the values; powers of ten on a logarithmic axis.
+std::vector<std::pair<double, std::string>> ticksOfY(const Frame& frame) {
+    std::vector<std::pair<double, std::string>> ticks;
+    if (!frame.logarithmic) {
+        for (const double t : niceTicks(frame.y.least, frame.y.greatest, 6))
+            ticks.emplace_back(t, shortNumber(t));
+        return ticks;
+    }
+    const int step = std::max(1, static_cast<int>(std::ceil((frame.y.greatest - frame.y.least) / 8)));
+    for (int e = static_cast<int>(frame.y.least); e <= static_cast<int>(frame.y.greatest); e += step)
+        ticks.emplace_back(e, "1e" + std::to_string(e));
+    return ticks;
+}
+
+void addAxes(const Plot& plot, const Frame& frame, Drawing& out) {
+    const double right = frame.right, bottom = frame.bottom();
     for (const auto& [t, text] : ticksOfX(frame)) {
-        out += segment(frame.px(t), kTop, frame.px(t), bottom, "#e3e6ea");
-        out += label(frame.px(t), bottom + 18, text, "middle");
+        out.add(DrawnLine{frame.px(t), frame.top, frame.px(t), bottom, {kGrid}});
+        out.add(DrawnText{frame.px(t), bottom + 18, text, Anchor::Middle});
     }
-    if (plot.logarithmic) {
-        const int step = std::max(1, static_cast<int>(std::ceil((frame.y.greatest - frame.y.least) / 8)));
-        for (int e = static_cast<int>(frame.y.least); e <= static_cast<int>(frame.y.greatest); e += step) {
-            out += segment(kLeft, frame.py(e), right, frame.py(e), "#e3e6ea");
-            out += label(kLeft - 8, frame.py(e) + 4, "1e" + std::to_string(e), "end");
-        }
-    } else {
-        for (const double t : niceTicks(frame.y.least, frame.y.greatest, 6)) {
-            out += segment(kLeft, frame.py(t), right, frame.py(t), "#e3e6ea");
-            out += label(kLeft - 8, frame.py(t) + 4, shortNumber(t), "end");
-        }
+    for (const auto& [t, text] : ticksOfY(frame)) {
+        out.add(DrawnLine{kLeft, frame.py(t), right, frame.py(t), {kGrid}});
+        out.add(DrawnText{kLeft - 8, frame.py(t) + 4, text, Anchor::End});
     }
-    out += segment(kLeft, bottom, right, bottom, "#5b6470") + segment(kLeft, kTop, kLeft, bottom, "#5b6470");
-    out += label((kLeft + right) / 2, kHeight - 12, plot.xLabel, "middle");
-    const std::string middle = coordinate((kTop + bottom) / 2);
-    const std::string turn = " transform=\"rotate(-90 18 " + middle + ")\"";
-    out += label(18, (kTop + bottom) / 2, plot.yLabel, "middle", turn.c_str());
-    return out + label(kLeft, 24, plot.title, "start", " font-size=\"15\" font-weight=\"600\"");
+    out.add(DrawnLine{kLeft, bottom, right, bottom, {kAxis}});
+    out.add(DrawnLine{kLeft, frame.top, kLeft, bottom, {kAxis}});
+    out.add(DrawnText{(kLeft + right) / 2, frame.height - 12, plot.xLabel, Anchor::Middle});
+    out.add(DrawnText{.x = 18,
+                      .y = (frame.top + bottom) / 2,
+                      .text = plot.yLabel,
+                      .anchor = Anchor::Middle,
+                      .upward = true});
+    out.add(DrawnText{.x = kLeft, .y = 24, .text = plot.title, .size = 15, .bold = true});
+    if (!plot.subtitle.empty()) out.add(DrawnText{kLeft, 42, plot.subtitle});
 }
 
-std::string dashAttribute(const PlotLine& line) {
-    std::string lengths;
-    for (const double length : line.dash) lengths += (lengths.empty() ? "" : " ") + coordinate(length);
-    return lengths.empty() ? "" : " stroke-dasharray=\"" + lengths + "\"";
-}
-
-std::string curve(const PlotLine& line, const Frame& frame, bool marked) {
-    std::string path, dots;
+void addCurve(const PlotLine& line, const Frame& frame, bool marked, Drawing& out) {
+    DrawnPath path{{}, {line.colour, 1.6, line.dash}};
     bool pen = false;
     for (std::size_t i = 0; i < line.x.size(); ++i) {
         const double v = frame.value(line.y[i]), at = frame.place(line.x[i]);
-        if (!std::isfinite(v) || !std::isfinite(at)) {
-            pen = false;
-            continue;
-        }
-        const std::string x = coordinate(frame.px(at)), y = coordinate(frame.py(v));
-        path += std::string(pen ? "L" : "M") + x + " " + y;
-        if (marked)
-            dots += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"3\" fill=\"" + escapeMarkup(line.colour) +
-                    "\"/>\n";
-        pen = true;
+        const bool seen = std::isfinite(v) && std::isfinite(at);
+        if (seen && !pen) path.pieces.emplace_back();
+        if (seen) path.pieces.back().push_back({frame.px(at), frame.py(v)});
+        pen = seen;
     }
-    if (path.empty()) return "";
-    return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + escapeMarkup(line.colour) +
-           "\" stroke-width=\"1.6\" stroke-linejoin=\"round\"" + dashAttribute(line) + "/>\n" + dots;
+    if (path.pieces.empty()) return;
+    out.add(path);
+    if (!marked) return;
+    for (const auto& piece : path.pieces)
+        for (const auto& [x, y] : piece) out.add(DrawnCircle{x, y, 3, line.colour});
 }
 
-std::string legend(const Plot& plot) {
-    std::string out;
-    double y = kTop + 8;
+void addLegend(const Plot& plot, const Frame& frame, Drawing& out) {
+    double y = frame.top + 8;
     for (const auto& line : plot.lines) {
-        out += "<line x1=\"" + coordinate(kWidth - kRight + 14) + "\" y1=\"" + coordinate(y) + "\" x2=\"" +
-               coordinate(kWidth - kRight + 38) + "\" y2=\"" + coordinate(y) + "\" stroke=\"" +
-               escapeMarkup(line.colour) + "\" stroke-width=\"2\"" + dashAttribute(line) + "/>\n";
-        out += label(kWidth - kRight + 44, y + 4, line.label, "start");
-        y += 18;
+        out.add(DrawnLine{frame.right + 14, y, frame.right + 38, y, {line.colour, 2, line.dash}});
+        out.add(DrawnText{frame.right + kLegendText, y + 4, line.label});
+        y += kLegendLine;
     }
-    return out;
 }
 
 /// The series of a file that a plot shows: of this name, where one is given, and that of the whole scene before that of
@@ -203,6 +200,15 @@ std::string seriesTitle(const std::string& name, const std::string& subject) {
     std::string text = name;
     std::replace(text.begin(), text.end(), '_', ' ');
     return subject.empty() ? text : text + " of " + subject;
+}
+
+/// ", time step 1/240 s" where the lines have one; else each label gets its own.
+std::string nameTimeSteps(const std::vector<double>& steps, std::vector<PlotLine>& lines) {
+    const bool areEqual =
+        std::adjacent_find(steps.begin(), steps.end(), std::not_equal_to<>()) == steps.end();
+    if (areEqual) return ", time step " + timeStepLabel(steps.front());
+    for (std::size_t i = 0; i < lines.size(); ++i) lines[i].label += ", " + timeStepLabel(steps[i]);
+    return ", each at its finest time step";
 }
 
 }  // namespace
@@ -232,15 +238,13 @@ std::vector<double> niceTicks(double least, double greatest, int about) {
     return ticks;
 }
 
-std::string svgPlot(const Plot& plot) {
+Drawing drawPlot(const Plot& plot) {
     const Frame frame = frameOf(plot);
-    std::string out =
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 420\" width=\"760\" height=\"420\" "
-        "font-family=\"system-ui, sans-serif\" font-size=\"12\" fill=\"#22272e\">\n"
-        "<rect width=\"760\" height=\"420\" fill=\"#ffffff\"/>\n";
-    out += axes(plot, frame);
-    for (const auto& line : plot.lines) out += curve(line, frame, plot.marked);
-    return out + legend(plot) + "</svg>\n";
+    Drawing out{frame.width, frame.height, {}};
+    addAxes(plot, frame, out);
+    for (const auto& line : plot.lines) addCurve(line, frame, plot.marked, out);
+    addLegend(plot, frame, out);
+    return out;
 }
 
 std::string plotCsv(const Plot& plot) {
@@ -254,7 +258,7 @@ std::string plotCsv(const Plot& plot) {
 }
 
 NamedPlot namedPlot(const std::string& name, const Plot& plot) {
-    return {name, svgPlot(plot), plotCsv(plot)};
+    return {name, drawPlot(plot), plotCsv(plot)};
 }
 
 std::optional<NamedPlot> scenarioPlot(const ViewModel& view, std::size_t index,
@@ -263,6 +267,7 @@ std::optional<NamedPlot> scenarioPlot(const ViewModel& view, std::size_t index,
     std::string name = "position_error";
     std::optional<std::string> subject;  // subject of the first line, and of all
     Plot plot;
+    std::vector<double> steps;  // time step of each line
     const std::size_t points = curvePoints(view.run().cases.size(), kPlotPoints, kFewestPlotPoints);
     for (std::size_t c = 0; c < view.columns().size(); ++c) {
         const auto& cases = view.cell(index, c).cases;
@@ -274,6 +279,7 @@ std::optional<NamedPlot> scenarioPlot(const ViewModel& view, std::size_t index,
         if (!series) continue;
         subject = series->subject;
         const auto& column = view.columns()[c];
+        steps.push_back(cases.front()->dt);
         PlotLine line{column.label, colourOf(view, column), column.dash, {}, {}};
         for (const std::size_t i : outlineIndices(series->channel.values, points)) {
             line.x.push_back(file->times[i]);
@@ -285,6 +291,7 @@ std::optional<NamedPlot> scenarioPlot(const ViewModel& view, std::size_t index,
     }
     if (plot.lines.empty()) return std::nullopt;
     plot.title = scenario.title.empty() ? scenario.name : scenario.title;
+    plot.subtitle = seriesTitle(name, *subject) + nameTimeSteps(steps, plot.lines);
     plot.xLabel = "t [s]";
     plot.logarithmic = name.find("error") != std::string::npos;
     return namedPlot(fileNamePart(scenario.name) + "-" + fileNamePart(name), plot);
