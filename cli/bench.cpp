@@ -13,6 +13,7 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/numbers.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
 #include "scenarios/loader/loader.hpp"
@@ -323,12 +324,12 @@ void addWhat(CLI::App& command, BenchArguments& a) {
     command
         .add_option("--threads", a.threads, "Numbers of threads for engines that have them (default 1): 1,2")
         ->delimiter(',')
-        ->check(CLI::Range(1, 1024));
+        ->check(between(1, 1024));
     auto* size = command
                      .add_option("--size", a.sizes,
                                  "Sizes of scenes that have one, and of parts: 5,10,20 (a growth curve)")
                      ->delimiter(',')
-                     ->check(CLI::Range(1, 1000000));
+                     ->check(between(1, 1000000));
     command.add_flag("--growth", a.growth, "Every scene at all the sizes it lists")->excludes(size);
     command.add_option("--set", a.overrides, "Override a scenario value: KEY=VALUE")->allow_extra_args(false);
     command.add_option("--dt", a.dt,
@@ -341,15 +342,15 @@ void addMethod(CLI::App& command, BenchArguments& a) {
         .add_option(
             "--width", t.width,
             "Repeat until the 95 % interval of each median is narrower than this share (default 0.05)")
-        ->check(CLI::Range(0.0, 10.0));
+        ->check(between(0.0, 10.0));
     command.add_option("--least", t.least, "Repetitions at least (default 6: fewer have no interval)")
-        ->check(CLI::Range(1, 10000));
-    command.add_option("--most", t.most, "Repetitions at most (default 30)")->check(CLI::Range(1, 10000));
+        ->check(between(1, 10000));
+    command.add_option("--most", t.most, "Repetitions at most (default 30)")->check(between(1, 10000));
     command
         .add_option(
             "--budget", a.budget,
             "No further round after so many seconds (default 1800; of parts alone, without --full, 480)")
-        ->check(CLI::Range(0.0, 1e7));
+        ->check(between(0.0, 1e7));
     command.add_option("--seed", t.seed, "Of the order of engines (default 1)");
     command
         .add_option("--clock", t.clock,
@@ -360,7 +361,7 @@ void addMethod(CLI::App& command, BenchArguments& a) {
     command
         .add_option("--threshold", a.held.threshold,
                     "Of --baseline: slower by a smaller share is no slow-down (default 0.05)")
-        ->check(CLI::Range(0.0, 1000.0));
+        ->check(between(0.0, 1000.0));
     command.add_flag("--any-build", a.slowBuild, "Time a build without optimisation, or with sanitizers");
 }
 

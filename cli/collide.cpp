@@ -10,6 +10,7 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/numbers.hpp"
 #include "reports/encoding/text.hpp"
 #include "reports/page/html.hpp"
 #include "scenarios/loader/collision_cases.hpp"
@@ -121,12 +122,12 @@ int collide(const CollideArguments& a) {
 void addRandom(CLI::App& command, CollideArguments& a) {
     auto* random =
         command.add_option("--random", a.random.count, "So many random pairs, exact results by the oracle")
-            ->check(CLI::Range(1, 10000000));
+            ->check(between(1, 10000000));
     const auto of = [&](const char* name, auto& value, const std::string& help) {
         return command.add_option(name, value, "Of --random: " + help)->needs(random);
     };
     of("--seed", a.random.seed, "the same pairs for the same seed (default 1)");
-    of("--dimension", a.random.dimension, "2 or 3 (default 3)")->check(CLI::IsMember({2, 3}));
+    of("--dimension", a.random.dimension, "2 or 3 (default 3)")->check(between(2, 3));
     of("--kinds", a.random.kinds, joined(validation::randomPairKinds()))->delimiter(',');
     of("--shapes", a.random.shapes,
        "every two of " + joined(validation::randomPairShapes(3)) + "; in 2D of " +
@@ -153,19 +154,19 @@ void addCollide(CLI::App& app, Action& action) {
                "-e,--engines");
     command->add_option("--out", a->out, "Folder for a page, collide.json, collide.csv and summary.md");
     command->add_option("-j,--jobs", a->jobs, "Children at a time (default: processors)")
-        ->check(CLI::Range(1, 1024));
+        ->check(between(1, 1024));
     command
         ->add_option("--touch", a->tolerance.touch,
                      "Distance from touching below which either verdict is right [m] (default 1e-9)")
-        ->check(CLI::Range(0.0, 1.0));
+        ->check(between(0.0, 1.0));
     command
         ->add_option("--relative", a->tolerance.relative,
                      "Tolerance of depths and distances, relative to them (default 1e-6)")
-        ->check(CLI::Range(0.0, 1.0));
+        ->check(between(0.0, 1.0));
     command
         ->add_option("--angle", a->tolerance.angle,
                      "Tolerance of normals, from the nearest minimiser [rad] (default 1e-6)")
-        ->check(CLI::Range(0.0, 3.2));
+        ->check(between(0.0, 3.2));
     command->add_flag("--all", a->all, "Print every result, not only the wrong ones of a large file");
     command->add_flag("--json", a->json, "Print the full record as JSON");
     command->add_flag("-q,--quiet", a->quiet, "No progress");

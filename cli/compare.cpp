@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "cli/command.hpp"
+#include "cli/numbers.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/comparison/recorded.hpp"
 #include "validation/results/files.hpp"
@@ -77,6 +78,9 @@ int compare(const CompareArguments& a) {
     if (a.after.empty() && a.pairBy.empty())
         throw std::invalid_argument(
             "compare: found one run, expected AFTER as well, or --pair engine|spec|dt");
+    if (a.after == kRecorded && a.pairBy.empty())
+        throw std::invalid_argument("compare: found 'recorded' as AFTER, expected it as BEFORE: compare " +
+                                    kRecorded + " " + a.before);
     const auto comparison = a.pairBy.empty() ? comparisonOf(a) : pairedComparison(a);
     const auto text = a.json ? validation::comparisonJson(comparison)
                              : validation::comparisonText(comparison, a.options, a.most);
@@ -132,7 +136,7 @@ void addCompare(CLI::App& app, Action& action) {
     command
         ->add_option("--tolerance", a->options.tolerance,
                      "Errors that differ by a smaller share count as equal (default 0.01)")
-        ->check(CLI::Range(0.0, 10.0));
+        ->check(between(0.0, 10.0));
     command->add_option("--limit", a->most, "Lines of each list (default 20)");
     command->add_flag("--json", a->json, "Print the comparison as JSON");
     command->footer(

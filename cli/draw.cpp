@@ -15,6 +15,7 @@
 #include "adapters/interface/prepared_engine.hpp"
 #include "cli/command.hpp"
 #include "cli/guarded.hpp"
+#include "cli/numbers.hpp"
 #include "cli/view/scene_lines.hpp"
 #include "engine/embedding/svg_lines.hpp"
 #include "reports/plots/drawing.hpp"
@@ -159,7 +160,7 @@ void addDraw(CLI::App& app, Action& action) {
         "(default: outline,contact,normal,joint); the longest impulse and velocity are a tenth "
         "of the scene");
     command->add_option("--width", a->width, "Width of the picture in pixels (default 800)")
-        ->check(CLI::Range(50, 20000));
+        ->check(between(50, 20000));
     command->add_option("--turn", a->turn, "3D: direction of view about y [degrees] (default 34)");
     command->add_option("--lift", a->lift, "3D: its height above the horizon [degrees] (default 20)");
     command->callback([a, &action] {

@@ -8,6 +8,7 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
@@ -93,9 +94,9 @@ void addFit(CLI::App& app, Action& action) {
     command->add_option("--out", a->out, "Folder (default: runs/fit-<name>-<time>)");
     command
         ->add_option("--budget", a->budget, "Points per engine at which the training part is run (file: 140)")
-        ->check(CLI::Range(10, 100000));
+        ->check(between(10, 100000));
     command->add_option("-j,--jobs", a->jobs, "Processes at a time (default: all cores)")
-        ->check(CLI::Range(1, 1024));
+        ->check(between(1, 1024));
     command->add_flag("--resume", a->resume, "Go on with an interrupted fit (--out, or the latest)");
     command->add_flag("--no-runs", a->noRuns, "Scores alone: no run folders with reports of the scored part");
     command->add_flag("--json", a->json, "Print the result as JSON");

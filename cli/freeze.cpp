@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/numbers.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/contact_problems/export_step.hpp"
 #include "validation/results/counted.hpp"
@@ -56,9 +57,9 @@ void addFreeze(CLI::App& app, Action& action) {
     command->add_option("--dt", a->dt,
                         "Time step in seconds (0.004 or 1/240); default: the scenario's first");
     auto* step = command->add_option("--step", a->step, "The step, from 1 (default: the last)")
-                     ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}));
+                     ->check(between(std::size_t{1}, std::size_t{1000000000}));
     command->add_option("--time", a->time, "The step that ends nearest to this time [s]")
-        ->check(CLI::NonNegativeNumber)
+        ->check(nonNegativeNumber())
         ->excludes(step);
     command->add_option("--set", a->overrides, "Override a scenario value: KEY=VALUE");
     command->add_option("--out", a->out, "The file, .hdf5")->required();

@@ -58,11 +58,14 @@ std::vector<Run> readHistory(const std::vector<std::string>& folders, results::P
     } catch (const std::runtime_error& error) {
         throw std::invalid_argument(error.what());
     }
-    for (std::size_t i = 1; i < runs.size() && by != results::PairBy::Nothing; ++i)
-        if (fs::equivalent(runs[i - 1].directory, runs[i].directory))
-            throw std::invalid_argument("history --pair: found " + runs[i].directory +
-                                        " twice, expected runs that differ; `rigor compare --pair` compares "
-                                        "cases within a run");
+    for (std::size_t i = 1; i < runs.size(); ++i)
+        for (std::size_t before = 0; before < i; ++before)
+            if (fs::equivalent(runs[before].directory, runs[i].directory))
+                throw std::invalid_argument("history: found " + runs[i].directory +
+                                            " twice, expected folders of different runs" +
+                                            (by == results::PairBy::Nothing
+                                                 ? ""
+                                                 : "; `rigor compare --pair` compares cases within a run"));
     return runs;
 }
 

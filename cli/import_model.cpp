@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/numbers.hpp"
 #include "scenarios/exchange/common/formats.hpp"
 #include "scenarios/exchange/common/text.hpp"
 #include "scenarios/loader/data_folder.hpp"
@@ -97,16 +98,17 @@ void addModelOptions(CLI::App& command, ModelArguments& a) {
     group->add_option("--licence", a.options.licence,
                       "Licence of the model (default: the file LICENSE beside or above it)");
     group->add_option("--duration", a.options.duration, "Duration of the scenario [s] (default 5)")
-        ->check(CLI::Range(1e-6, 3600.0));
+        ->check(between(1e-6, 3600.0));
     group->add_option("--dt", a.dt, "Time step [s] (default: the model's, else 1/240)");
     group->add_option("--keyframe", a.options.keyframe, "MJCF: start from this keyframe, by name or number");
     group->add_option("--friction", a.options.friction, "Coefficient where the file states none (default 1)")
-        ->check(CLI::Range(0.0, 1e6));
+        ->check(between(0.0, 1e6));
     group->add_option("--density", a.options.density, "Meshes: density [kg/m3] (default 1000)")
-        ->check(CLI::Range(1e-9, 1e9));
+        ->check(between(1e-9, 1e9));
     group->add_option("--scale", a.options.scale, "Meshes: metres per unit of the file (default 1)")
-        ->check(CLI::Range(1e-9, 1e9));
-    group->add_option("--floor", a.floor, "Add a static half-space at this height [m]");
+        ->check(between(1e-9, 1e9));
+    group->add_option("--floor", a.floor, "Add a static half-space at this height [m]")
+        ->check(anyNumber<double>());
     group->add_flag("--fixed-base", a.options.fixedBase, "URDF: the root link does not move");
     group->add_flag("--self-collision", a.options.selfCollision,
                     "URDF: links of the robot collide with each other");
@@ -114,9 +116,9 @@ void addModelOptions(CLI::App& command, ModelArguments& a) {
     group
         ->add_option("--hull-corners", a.options.hullCorners,
                      "Take this many corners of a convex hull that has more, those that stand out most")
-        ->check(CLI::Range(4, 64));
+        ->check(between(4, 64));
     group->add_option("--time-limit", a.timeLimit, "Most seconds for the reader (default 300)")
-        ->check(CLI::Range(1.0, 86400.0));
+        ->check(between(1.0, 86400.0));
     group->add_flag("--static", a.options.isStatic, "Meshes: the mesh is the ground, of triangles");
     group->add_flag("--json", a.json, "The report as JSON on stdout");
 }

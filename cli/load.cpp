@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "cli/command.hpp"
+#include "cli/numbers.hpp"
 #include "cli/reference_checks.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/results/types.hpp"
@@ -124,7 +125,7 @@ void addReferenceLimit(CLI::App& command, validation::ReferenceLimits& limits) {
             "--reference-limit", limits.seconds,
             "Time that the reference of a scenario may take [s] (default 20); beyond it the case runs "
             "without one")
-        ->check(CLI::PositiveNumber);
+        ->check(positiveNumber());
 }
 
 bool missesByOtherValues(const results::CaseRow& row, const std::vector<std::string>& overrides) {

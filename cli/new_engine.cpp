@@ -11,6 +11,7 @@
 #include <memory>
 #include <sstream>
 
+#include "adapters/interface/registry.hpp"
 #include "cli/command.hpp"
 #include "scenarios/loader/data_folder.hpp"
 
@@ -76,6 +77,19 @@ void checkEngineName(const std::string& name) {
                                     "', expected lower-case letters, digits and '_', a letter first");
 }
 
+/// An engine of this name would hide the other one, or be hidden by it.
+void refuseTakenName(const std::string& name) {
+    const std::vector<std::string> taken = adapter::availableEngines();
+    std::vector<std::string> absent;
+    for (const adapter::GuestManifest& guest : adapter::absentGuests()) absent.push_back(guest.name);
+    const auto has = [&](const std::vector<std::string>& names) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    if (has(taken) || has(absent))
+        throw std::invalid_argument("the name of an engine: found '" + name +
+                                    "', which is that of an engine (`rigor list engines`), expected another");
+}
+
 const Template& templateFor(const std::string& language) {
     std::string known;
     for (const Template& t : templates()) {
@@ -87,6 +101,7 @@ const Template& templateFor(const std::string& language) {
 
 int newEngine(const NewEngineArguments& a) {
     checkEngineName(a.name);
+    refuseTakenName(a.name);
     const Template& t = templateFor(a.language);
     const fs::path folder = a.folder.empty() ? fs::path(a.name) : a.folder;
     if (fs::exists(folder) && !fs::is_empty(folder))

@@ -8,6 +8,7 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
@@ -114,7 +115,7 @@ void addPieces(CLI::App& app, Action& action) {
     offerNames(offerNames(what, kSuiteNames), kScenarioNames);
     command->add_option("--every", a->every, "Steps of a piece: K1,K2,... (default 1,8,64)")
         ->delimiter(',')
-        ->check(CLI::Range(1, 1000000));
+        ->check(between(1, 1000000));
     addEngines(*command, a->engines, "Engine specs, comma separated; default: all installed, both presets");
     command
         ->add_option("--dt", a->timeSteps,
@@ -122,7 +123,7 @@ void addPieces(CLI::App& app, Action& action) {
         ->delimiter(',');
     command->add_option("--set", a->overrides, "Override a scenario value: KEY=VALUE")
         ->allow_extra_args(false);
-    command->add_option("-j,--jobs", a->jobs, "Cases at a time (default 1)")->check(CLI::Range(1, 1024));
+    command->add_option("-j,--jobs", a->jobs, "Cases at a time (default 1)")->check(between(1, 1024));
     command->add_option("--out", a->out, "Run folder (default: runs/pieces-<time>)");
     addReferenceLimit(*command, a->referenceLimits);
     command->add_flag("-q,--quiet", a->quiet, "No progress");

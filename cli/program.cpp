@@ -3,14 +3,18 @@
 #include "cli/program.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "adapters/interface/types.hpp"
 #include "cli/command.hpp"
+#include "cli/numbers.hpp"
 #include "scenarios/loader/data_folder.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "scenarios/model/nearest.hpp"
@@ -78,6 +82,33 @@ bool saysUnknownWord(const CLI::App& app) {
     return true;
 }
 
+/// Every option of a command and of those below it.
+void forOptions(CLI::App& app, const std::function<void(CLI::App&, CLI::Option&)>& use) {
+    for (CLI::Option* option : app.get_options()) use(app, *option);
+    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        forOptions(*command, use);
+}
+
+/// Numeric options without a check of their own get one, whose message says more than the library's.
+void checkNumbers(CLI::App& app) {
+    forOptions(app, [](CLI::App&, CLI::Option& option) {
+        const std::string type = option.get_type_name();  // "INT", or "INT:CHECK"
+        if (type == "INT") option.check(anyNumber<long long>());
+        if (type == "UINT") option.check(anyNumber<unsigned long long>());
+        if (type == "FLOAT") option.check(anyNumber<double>());
+    });
+}
+
+/// An empty text would count as an option that is not given. Throws std::invalid_argument.
+void refuseEmptyTexts(CLI::App& app) {
+    forOptions(app, [](CLI::App& command, CLI::Option& option) {
+        const CLI::results_t& texts = option.results();
+        if (option.count() == 0 || std::find(texts.begin(), texts.end(), "") == texts.end()) return;
+        throw std::invalid_argument(command.get_name() + ": " + option.get_name() +
+                                    ": found '', expected a text that is not empty");
+    });
+}
+
 int runCommand(int argc, char** argv, const Program& program) {
     CLI::App app{"Rigor: rigid-body engines held to the same references"};
     app.name("rigor");
@@ -87,6 +118,7 @@ int runCommand(int argc, char** argv, const Program& program) {
     app.require_subcommand(1);
     Action action;
     for (const AddCommand add : program.commands) add(app, action);
+    checkNumbers(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -99,6 +131,7 @@ int runCommand(int argc, char** argv, const Program& program) {
         std::fputs(scenario::printable(message.str(), scenario::Lines::Keep).c_str(), stderr);
         return code == 0 ? kOk : kBadInput;
     }
+    refuseEmptyTexts(app);
     return action();
 }
 

@@ -11,6 +11,7 @@
 
 #include "cli/command.hpp"
 #include "cli/guarded.hpp"
+#include "cli/numbers.hpp"
 #include "reports/model/view_model.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/results/files.hpp"
@@ -263,7 +264,7 @@ void addRun(CLI::App& app, Action& action) {
     command
         ->add_option("--order", a->order,
                      "In the K-th order of insertion, as of `rigor validate --orders`; 1: as written")
-        ->check(CLI::Range(1, 1000));
+        ->check(between(1, 1000));
     addReferenceLimit(*command, a->referenceLimits);
     command->add_flag("--json", a->json, "Print the result as JSON");
     command->callback([a, &action] {

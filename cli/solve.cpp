@@ -9,6 +9,7 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/numbers.hpp"
 #include "reports/encoding/text.hpp"
 #include "reports/page/html.hpp"
 #include "validation/contact_problems/solve.hpp"
@@ -74,17 +75,17 @@ void addSolve(CLI::App& app, Action& action) {
         ->add_option("--iterations", a->options.iterations,
                      "Numbers of iterations to allow, comma separated (default 1,2,5,...,2000)")
         ->delimiter(',')
-        ->check(CLI::Range(1, 100000000));
+        ->check(between(1, 100000000));
     command
         ->add_option("--tolerance", a->options.tolerance,
                      "At which solvers may stop, by their own measure, relative to max |q| (default 1e-14)")
-        ->check(CLI::Range(0.0, 1.0));
+        ->check(between(0.0, 1.0));
     command
         ->add_option("--seconds", a->options.seconds,
                      "No larger number of iterations after this time, per solver and file (default 10)")
-        ->check(CLI::Range(0.0, 1e6));
+        ->check(between(0.0, 1e6));
     command->add_option("-j,--jobs", a->options.jobs, "Children at a time (default 1: times are taken alone)")
-        ->check(CLI::Range(1, 1024));
+        ->check(between(1, 1024));
     command->add_option("--csv", a->csv, "Write every number of iterations of every solver to this file");
     command->add_option("--out", a->out, "Folder for a page: residual over iterations and over time");
     command->add_flag("--all", a->all, "Print every number of iterations, not only the last");

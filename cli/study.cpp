@@ -9,6 +9,7 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/reference_checks.hpp"
 #include "cli/run_folder.hpp"
@@ -147,12 +148,12 @@ void addStudy(CLI::App& app, Action& action) {
     command->add_option("--part", a->parts, "Only these parts")->delimiter(',');
     command->add_option("--out", a->out, "Run folder (default: runs/<study>-<time>)");
     command->add_option("-j,--jobs", a->jobs, "Cases at a time (default 1: timings are taken alone)")
-        ->check(CLI::Range(1, 1024));
+        ->check(between(1, 1024));
     command
         ->add_option(
             "--orders", a->orders,
             "Run every case in so many orders of insertion; ranges stand in the store and the report")
-        ->check(CLI::Range(1, 1000));
+        ->check(between(1, 1000));
     command->add_option(
         "--shard", a->shard,
         "Run the K-th of N parts of the plan (K/N), without tables and report: for many machines; "

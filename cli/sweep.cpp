@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/numbers.hpp"
 #include "validation/results/files.hpp"
 #include "validation/runner/shell_word.hpp"
 
@@ -192,7 +193,7 @@ void addSweep(CLI::App& app, Action& action) {
     command->prefix_command();  // the first word that is no option of this command begins the plan
     command->add_option("--shards", a->shards, "Number of parts: each gets whole scenarios")
         ->required()
-        ->check(CLI::Range(1, 100000));
+        ->check(between(1, 100000));
     command
         ->add_option("--out", a->out, "Folder that all machines share: scripts, logs, shards, the merged run")
         ->required();

@@ -12,6 +12,7 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/reference_checks.hpp"
 #include "cli/run_folder.hpp"
@@ -290,7 +291,7 @@ void addValidate(CLI::App& app, Action& action) {
     command->add_option("--set", a->overrides, "Override a scenario value: KEY=VALUE")
         ->allow_extra_args(false);
     command->add_option("-j,--jobs", a->jobs, "Cases at a time (default 1: timings are taken alone)")
-        ->check(CLI::Range(1, 1024));
+        ->check(between(1, 1024));
     command->add_option("--out", a->out, "Run folder (default: runs/<suite>-<time>)");
     command->add_flag("--resume", a->resume, "Go on with an interrupted run (--out, or the latest)");
     command->add_option("--baseline", a->baseline,
@@ -300,12 +301,12 @@ void addValidate(CLI::App& app, Action& action) {
                      "Also put the bodies back on the truth every K1,K2,... steps and measure one piece (see "
                      "`rigor pieces`)")
         ->delimiter(',')
-        ->check(CLI::Range(1, 1000000));
+        ->check(between(1, 1000000));
     command
         ->add_option("--orders", a->orders,
                      "Run every case in so many orders of insertion (bodies, shapes, joints, forces): as "
                      "written, reversed, shuffled; ranges stand beside the values (default: the suite's, 1)")
-        ->check(CLI::Range(1, 1000));
+        ->check(between(1, 1000));
     command->add_option("--shard", a->shard,
                         "Run the K-th of N parts of the plan (K/N), without a report: for many machines; "
                         "`rigor merge` makes one run of them");

@@ -13,6 +13,7 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/numbers.hpp"
 #include "cli/view/live_site.hpp"
 #include "cli/view/run_site.hpp"
 #include "cli/view/server.hpp"
@@ -143,7 +144,7 @@ void addView(CLI::App& app, Action& action) {
     command
         ->add_option("--save-to", a->saveFolder, "Live: folder for scenarios that are saved (default: here)")
         ->check(CLI::ExistingDirectory);
-    command->add_option("--port", a->port, "Port; default: any that is free")->check(CLI::Range(0, 65535));
+    command->add_option("--port", a->port, "Port; default: any that is free")->check(between(0, 65535));
     command->add_flag("--open,!--no-open", a->open, "Open the link with xdg-open");
     command->add_flag("--json", a->json, "Print the link as JSON");
     command->callback(

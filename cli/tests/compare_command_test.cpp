@@ -81,7 +81,9 @@ TEST_F(CompareCommand, TheHistoryOfRunsThatDifferOnPurpose) {
     const auto presets =
         rigor("history --pair spec " + path("a") + " " + path("a") + " --out " + path("page"));
     EXPECT_EQ(presets.code, 2) << presets.out;
-    EXPECT_NE(presets.out.find("twice, expected runs that differ"), std::string::npos) << presets.out;
+    EXPECT_NE(presets.out.find("twice, expected folders of different runs; `rigor compare --pair`"),
+              std::string::npos)
+        << presets.out;
     EXPECT_EQ(rigor("history --pair colour " + runs).code, 2);
 }
 
@@ -142,6 +144,18 @@ TEST_F(CompareCommand, NothingInCommonIsAnErrorAndPairsAreCompared) {
     EXPECT_EQ(rigor("compare --pair dt " + path("a")).code, 2) << "one step alone";
     EXPECT_EQ(rigor("compare --pair colour " + path("a")).code, 2);
     EXPECT_EQ(rigor("compare --pair engine recorded " + path("a")).code, 2);
+}
+
+TEST_F(CompareCommand, OneFolderTwiceIsNoHistoryAndTheRecordGoesFirst) {
+    const auto twice = rigor("history " + path("a") + " " + path("a") + " --out " + path("page"));
+    EXPECT_EQ(twice.code, 2) << twice.out;
+    EXPECT_NE(twice.out.find("found " + path("a") + " twice, expected folders of different runs"),
+              std::string::npos)
+        << twice.out;
+    const auto after = rigor("compare " + path("a") + " recorded");
+    EXPECT_EQ(after.code, 2);
+    EXPECT_NE(after.out.find("expected it as BEFORE: compare recorded " + path("a")), std::string::npos)
+        << after.out;
 }
 
 TEST_F(CompareCommand, WhatIsNoRunIsSaid) {

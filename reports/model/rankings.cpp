@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "reports/model/view_model.hpp"
@@ -135,20 +136,23 @@ bool isCandidate(const Mechanism& m, std::size_t column) {
     return s.scenarios > s.lost && 2 * (s.scenarios - s.lost) >= most && std::isfinite(s.toBest);
 }
 
-/// Least share of lost cases and grade E first, then the most within a hundredth, then the smallest error, then the least
-/// cost by the same clock.
+/// Candidates before the others; then by the least share of scenarios that were lost or of grade E, then the largest share
+/// of gradable ones within a hundredth, then the smallest error, then the least cost by the same clock.
 void rank(const ViewModel& view, Mechanism& m) {
     for (std::size_t c = 0; c < m.rankings.size(); ++c)
         if (m.rankings[c].scenarios > 0) m.order.push_back(c);
     const auto key = [&](std::size_t c) {
         const Ranking& s = m.rankings[c];
-        const double all = s.scenarios;
-        return std::tuple(!isCandidate(m, c), (s.lost + s.grades[4]) / all, -(s.within() / all),
+        return std::tuple(!isCandidate(m, c), (s.lost + s.grades[4]) / static_cast<double>(s.scenarios),
+                          -(s.within() / static_cast<double>(std::max(1, s.gradable()))),
                           std::isfinite(s.toBest) ? s.toBest : 1e300, view.columns()[c].clock,
                           std::isfinite(s.cost) ? s.cost : 1e300);
     };
     std::stable_sort(m.order.begin(), m.order.end(), [&](auto a, auto b) { return key(a) < key(b); });
     if (!m.order.empty() && isCandidate(m, m.order.front())) m.best = m.order.front();
+    std::set<std::string> seen;
+    for (const std::size_t c : m.order)
+        if (seen.insert(view.columns()[c].engine).second) m.engines.push_back(c);
 }
 
 }  // namespace
@@ -195,10 +199,13 @@ Mechanism rankingsOver(const ViewModel& view, const std::vector<std::size_t>& sc
             count(view, view.cell(s, c), caseAt(view.cell(s, c), finest),
                   cheapest.at(view.columns()[c].clock), m.rankings[c], sums[c]);
     }
+    const bool anyGraded =
+        std::any_of(sums.begin(), sums.end(), [](const Sums& column) { return !column.costs.empty(); });
     for (std::size_t c = 0; c < sums.size(); ++c) {
         m.rankings[c].toBest = sums[c].toBest.value();
         m.rankings[c].toOurs = sums[c].toOurs.value();
-        const std::vector<double>& costs = sums[c].costs.empty() ? sums[c].otherCosts : sums[c].costs;
+        const std::vector<double>& costs = anyGraded ? sums[c].costs : sums[c].otherCosts;
+        m.rankings[c].timed = static_cast<int>(costs.size());
         m.rankings[c].cost = costs.empty() ? kNoNumber : validation::median(costs);
         m.rankings[c].costRatio = sums[c].costRatio.value();
     }

@@ -85,13 +85,16 @@ struct Ranking {
     int red = 0;                  ///< scenarios with a red case at any time step
     double toBest = kNoNumber;    ///< geometric means of Ratios
     double toOurs = kNoNumber;
-    /// Median over the graded scenarios of the median of a step, over all where none is graded [s].
+    /// Median over the graded scenarios of the median of a step; over all scenarios where no column has a graded one [s].
     double cost = kNoNumber;
+    int timed = 0;                 ///< scenarios that `cost` is the median of
     double costRatio = kNoNumber;  ///< geometric mean over the cheapest one's of the same clock
 
     /// Scenarios of grade C or better: within a hundredth of the scenario's own scale.
     int within() const { return grades[0] + grades[1] + grades[2]; }
     int graded() const { return within() + grades[3] + grades[4]; }
+    /// Scenarios that can be graded, with those that were lost.
+    int gradable() const { return scenarios - ungraded; }
 };
 
 /// Cost of a step on one spec, each scenario at the finest time step that any engine completed there: medians
@@ -115,9 +118,10 @@ struct Mechanism {
     std::string name;          ///< name as in the scenarios' `isolates`; for a task its key
     std::string title, about;  ///< title and description of a task
     std::vector<std::string> scenarios;
-    std::vector<Ranking> rankings;   ///< one ranking per column
-    std::vector<std::size_t> order;  ///< columns that took part, the most trusted first
-    int best = -1;                   ///< column; -1: none
+    std::vector<Ranking> rankings;     ///< one ranking per column
+    std::vector<std::size_t> order;    ///< columns that took part, the most trusted first
+    std::vector<std::size_t> engines;  ///< columns of `order`, of each engine its first one: its best preset
+    int best = -1;                     ///< column; -1: none
 };
 
 struct Offender {

@@ -277,10 +277,19 @@ Json scenariosJson(const ViewModel& view, CasesOfPage where) {
 }
 
 Json rankingJson(const Ranking& s) {
-    return {{"scenarios", s.scenarios},   {"lost", s.lost},         {"grades", s.grades},
-            {"within", s.within()},       {"ungraded", s.ungraded}, {"known", s.known},
-            {"farther", s.farther},       {"red", s.red},           {"toBest", number(s.toBest)},
-            {"toOurs", number(s.toOurs)}, {"cost", number(s.cost)}, {"costRatio", number(s.costRatio)}};
+    return {{"scenarios", s.scenarios},
+            {"lost", s.lost},
+            {"grades", s.grades},
+            {"within", s.within()},
+            {"ungraded", s.ungraded},
+            {"known", s.known},
+            {"farther", s.farther},
+            {"red", s.red},
+            {"toBest", number(s.toBest)},
+            {"toOurs", number(s.toOurs)},
+            {"cost", number(s.cost)},
+            {"costRatio", number(s.costRatio)},
+            {"timed", s.timed}};
 }
 
 /// Costs by column, as the page's columns.
@@ -303,8 +312,8 @@ Json costsJson(const ViewModel& view) {
 Json mechanismJson(const Mechanism& m) {
     Json rankings = Json::array();
     for (const auto& s : m.rankings) rankings.push_back(rankingJson(s));
-    return {{"name", m.name},   {"title", m.title}, {"about", m.about},    {"scenarios", m.scenarios},
-            {"order", m.order}, {"best", m.best},   {"rankings", rankings}};
+    return {{"name", m.name},   {"title", m.title},     {"about", m.about}, {"scenarios", m.scenarios},
+            {"order", m.order}, {"engines", m.engines}, {"best", m.best},   {"rankings", rankings}};
 }
 
 Json mechanismsJson(const std::vector<Mechanism>& mechanisms) {

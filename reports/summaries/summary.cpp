@@ -134,19 +134,19 @@ std::string times(double ratio) {
     return shortNumber(std::round(10 * ratio) / 10) + "x";
 }
 
-/// Ranking: the first and the next engine of every mechanism.
+/// Ranking: the first and the next engines of every mechanism, each by its best preset.
 std::string trustSection(const ViewModel& view) {
     std::string rows;
     for (const auto& m : view.mechanisms()) {
         if (m.best < 0) continue;
         rows += "| " + markdownCell(m.name) + " | " + std::to_string(m.scenarios.size()) + " |";
         int named = 0;
-        for (const std::size_t c : m.order) {
+        for (const std::size_t c : m.engines) {
             const Ranking& s = m.rankings[c];
             if (named == kMostChoices || !std::isfinite(s.toBest)) break;
             const std::string label = markdownCell(view.columns()[c].label);
             rows += " " + (named == 0 ? "**" + label + "**" : label) + " " + std::to_string(s.within()) +
-                    "/" + std::to_string(s.scenarios) + ", " + times(s.toBest) +
+                    "/" + std::to_string(s.gradable()) + ", " + times(s.toBest) +
                     (std::isfinite(s.toOurs) ? ", " + times(s.toOurs) + " ours" : "") + " |";
             ++named;
         }
@@ -154,12 +154,13 @@ std::string trustSection(const ViewModel& view) {
         rows += "\n";
     }
     if (rows.empty()) return "";
-    return "\n### Who to trust for what\n\n| mechanism | scenarios | first choice | next | then |\n"
+    return "\n### Who to trust for what, each engine by its best preset\n\n| mechanism | scenarios | first "
+           "choice | next | then |\n"
            "|---|---:|---|---|---|\n" +
            rows +
            "\nBeside each engine: scenarios within a hundredth of their own scale (grade C or better) of "
-           "those it "
-           "took part in, its error over the best engine's and over the in-house one's (geometric means).\n";
+           "those it took part in that can be graded, its error over the best engine's and over the in-house "
+           "one's (geometric means).\n";
 }
 
 /// Scenarios whose reference broke down: the engines ran, and their errors are unknown.

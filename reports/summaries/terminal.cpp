@@ -268,7 +268,7 @@ std::vector<std::string> totalsLines(const ViewModel& view, std::size_t width) {
     return lines;
 }
 
-/// Rankings: a line for each mechanism, its engines from the best on, as many as fit.
+/// Rankings: a line for each mechanism, its engines from the best on, each by its best preset, as many as fit.
 std::vector<std::string> trustLines(const ViewModel& view, const Names& names, std::size_t most,
                                     std::size_t width, const Painter& paint) {
     std::vector<std::string> lines;
@@ -276,19 +276,20 @@ std::vector<std::string> trustLines(const ViewModel& view, const Names& names, s
     auto mechanisms = view.mechanisms();
     std::erase_if(mechanisms, [](const Mechanism& m) { return m.best < 0; });
     if (mechanisms.empty() || most < 2) return lines;
-    lines.push_back(paint(
-        cut("Who to trust for what (scenarios within 1e-2, error over the best and over ours)", width), "1"));
+    lines.push_back(
+        paint(cut("Who to trust for what, each engine by its best preset (within 1e-2; x best, ours)", width),
+              "1"));
     if (mechanisms.size() > most - 1) mechanisms.resize(most - 1);
     for (const auto& m : mechanisms) nameWidth = std::max(nameWidth, displayWidth(plain(m.name)));
     nameWidth = std::min(nameWidth, width / 3);
     for (const auto& m : mechanisms) {
         std::string line = "  " + pad(plain(m.name), nameWidth);
         bool first = true;
-        for (const std::size_t c : m.order) {
+        for (const std::size_t c : m.engines) {
             const Ranking& s = m.rankings[c];
             if (!std::isfinite(s.toBest)) continue;
             std::string entry = (first ? "  " : ", ") + plain(names.columns[c].label) + " " +
-                                std::to_string(s.within()) + "/" + std::to_string(s.scenarios) + " " +
+                                std::to_string(s.within()) + "/" + std::to_string(s.gradable()) + " " +
                                 timesText(s.toBest);
             if (std::isfinite(s.toOurs)) entry += " " + timesText(s.toOurs);
             if (!first && displayWidth(line) + displayWidth(entry) > width) break;
@@ -320,17 +321,19 @@ std::vector<std::string> offenderLines(const ViewModel& view, const Names& names
     return lines;
 }
 
-/// Costs of a step, the cheapest first: by median and by mean, the first step apart, with the accuracy of the
-/// same runs.
+constexpr std::size_t kDurationWidth = 8;  ///< width of the longest duration, "0.631 µs"
+
+/// Costs of a step in the order of byCost(), those of each clock together: median and mean, the first step apart, with
+/// the accuracy of the same runs.
 std::vector<std::string> costLines(const ViewModel& view, const Names& names, std::size_t most,
                                    std::size_t width, const Painter& paint) {
     std::vector<std::string> lines;
     const auto costs = stepCosts(view);
     const auto order = byCost(costs);
     if (order.empty() || most < 2) return lines;
-    std::string title = "Cost of a step";
+    std::string title = "Cost of a step, by the mean over the cheapest one's";
     if (order.size() + 1 > most)
-        title += ", the cheapest " + std::to_string(most - 1) + " of " + std::to_string(order.size());
+        title += ", " + std::to_string(most - 1) + " of " + std::to_string(order.size());
     title += " (cases within 1e-2; medians over scenarios; the first step apart)";
     lines.push_back(paint(cut(title, width), "1"));
     const Mechanism overall = view.overall();
@@ -351,8 +354,8 @@ std::vector<std::string> costLines(const ViewModel& view, const Names& names, st
                                                         {"first", cost.first},   {"p95", cost.p95},
                                                         {"p99", cost.p99},       {"worst", cost.worst}};
         for (const auto& [name, seconds] : parts) {
-            const std::string entry =
-                " " + std::string(name) + " " + pad(std::isnan(seconds) ? "-" : durationLabel(seconds), 7);
+            const std::string entry = " " + std::string(name) + " " +
+                                      pad(std::isnan(seconds) ? "-" : durationLabel(seconds), kDurationWidth);
             if (displayWidth(line) + displayWidth(entry) > width) break;
             line += entry;
         }

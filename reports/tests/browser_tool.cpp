@@ -130,7 +130,8 @@ std::string changeOf(const rigor::results::CaseRow& c, const rigor::results::Met
                        {"size", std::log(factor)}});
         return metric;
     };
-    json spec{{"name", c.spec}, {"cases", 20}, {"better", 0}, {"worse", 1}, {"same", 19}, {"p_errors", 1.0}};
+    json spec{{"name", c.spec}, {"cases", 20}, {"better", 0}, {"worse", 15}, {"same", 19}};
+    spec.update({{"cases_better", 0}, {"cases_worse", 1}, {"p_cases", 1.0}});
     spec.update({{"timed", 20}, {"time_ratio", 1.2}, {"time_interval", {1.1, 1.3}}, {"p_time", 0.02}});
     json verdict = place;
     verdict.update({{"before", "pass"},

@@ -262,9 +262,10 @@ TEST(StepCosts, MedianAndMeanStandSideBySide) {
     EXPECT_EQ(view.columns()[order.back()].engine, "ode");
     EXPECT_THAT(costMarkdown(view),
                 HasSubstr("| 20 µs | 120 µs | 4 ms | 50 µs | 60 µs | 70 µs | 500 | 2x | 4x |"));
-    EXPECT_THAT(terminalSummary(run, 60, 200, false),
-                HasSubstr("median 10 µs   mean 30 µs   first 4 ms    p95 50 µs   p99 60 µs   worst 70 µs   "
-                          "500x real time"));
+    EXPECT_THAT(
+        terminalSummary(run, 60, 200, false),
+        HasSubstr("median 10 µs    mean 30 µs    first 4 ms     p95 50 µs    p99 60 µs    worst 70 µs    "
+                  "500x real time"));
 }
 
 TEST(StepCosts, TimesOfDifferentClocksAreNeverInOneRatio) {

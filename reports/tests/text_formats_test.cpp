@@ -324,6 +324,13 @@ TEST(Terminal, ShowsRankingsFailuresAndPaths) {
     const auto line = text.substr(at(("  " + mechanisms.front().name + " ").c_str()));
     EXPECT_LT(line.find(best.label), line.find('\n')) << "the first choice stands beside the mechanism";
     EXPECT_GE(splitLines(text).size(), 36u) << "the lines are used";
+    const auto from = at("Cost of a step, by the mean over the cheapest one's");
+    ASSERT_NE(from, std::string::npos) << text;
+    const auto cost = text.substr(from);
+    EXPECT_TRUE(std::regex_search(cost, std::regex(" median [0-9.e+]+ (µs|ms|s) "))) << cost;
+    EXPECT_EQ(cost.substr(0, cost.find("\n\n")).find("…"), std::string::npos)
+        << "durations keep their units\n"
+        << cost;
 }
 
 /// Specs with ten options: a number in rows and columns, and what it stands for once.

@@ -11,6 +11,8 @@
 #include <set>
 
 #include "reports/model/derived_runs.hpp"
+#include "reports/summaries/summary.hpp"
+#include "reports/summaries/terminal.hpp"
 #include "reports/tables/csv.hpp"
 #include "validation/results/judgement.hpp"
 
@@ -232,6 +234,66 @@ TEST(ViewModel, CostsAreOfGradedScenariosAndTellEqualErrorsApart) {
     const auto m = ViewModel(run).mechanisms().at(0);
     EXPECT_DOUBLE_EQ(m.rankings[0].cost, 4.0) << "the step of what has no exact solution is not the stack's";
     EXPECT_EQ(m.order, (std::vector<std::size_t>{1, 0})) << "equal errors, the cheaper first";
+}
+
+/// Steps of an ungraded scene do not stand beside those of graded ones; where no scene can be graded, all are timed.
+TEST(ViewModel, CostsOfUngradedScenariosAreNotSetBesideOthers) {
+    results::Run run = twoScenarios();
+    const auto timed = [](CaseRow c, bool isGraded) {
+        c.timings.push_back({.phase = "step", .median = 4.0, .samples = 10});
+        if (!isGraded) c.accuracy = {};
+        return c;
+    };
+    run.cases = {timed(makeCase("a", "one", 0.01, 1e-9), true), timed(makeCase("b", "one", 0.01, 1.0), false),
+                 timed(makeCase("b", "two", 0.01, 1.0), false)};
+    const auto m = ViewModel(run).mechanisms().at(0);
+    EXPECT_EQ(m.rankings[0].timed, 1);
+    EXPECT_EQ(m.rankings[1].timed, 0);
+    EXPECT_TRUE(std::isnan(m.rankings[1].cost));
+    run.cases[0] = timed(makeCase("a", "one", 0.01, 1e-9), false);
+    const auto none = ViewModel(run).mechanisms().at(0);
+    EXPECT_EQ(none.rankings[0].timed, 2);
+    EXPECT_DOUBLE_EQ(none.rankings[1].cost, 4.0);
+}
+
+/// The third preset of one engine is no choice beside that engine: each engine is named once, by its best preset.
+TEST(ViewModel, EachEngineIsRankedByItsBestPreset) {
+    results::Run run = twoScenarios();
+    const auto preset = [](const std::string& engine, const std::string& name, double error) {
+        CaseRow c = makeCase("a", engine, 0.01, error);
+        c.preset = name;
+        c.spec = engine + ":preset=" + name;
+        return c;
+    };
+    run.cases = {preset("many", "fast", 0.09), preset("many", "default", 0.01),
+                 preset("many", "accurate", 0.001), preset("few", "default", 0.02),
+                 preset("few", "matched", 0.05)};
+    const auto m = ViewModel(run).mechanisms().at(0);
+    EXPECT_EQ(m.order, (std::vector<std::size_t>{2, 1, 3, 4, 0}));
+    EXPECT_EQ(m.engines, (std::vector<std::size_t>{2, 3}));
+    EXPECT_EQ(static_cast<int>(m.engines.front()), m.best);
+    const std::string summary = markdownSummary(ViewModel(run));
+    EXPECT_NE(summary.find("### Who to trust for what, each engine by its best preset"), std::string::npos);
+    EXPECT_NE(summary.find("| friction | 2 | **many accurate** 1/1, 1x | few default 1/1, 20x | |\n"),
+              std::string::npos)
+        << summary;
+    const std::string terminal = terminalSummary(run, 40, 160, false);
+    const auto at = terminal.find("  friction ");
+    ASSERT_NE(at, std::string::npos) << terminal;
+    EXPECT_EQ(terminal.substr(at, terminal.find('\n', at) - at),
+              "  friction  many accurate 1/1 1.0x, few default 1/1 20x");
+}
+
+/// The share within a hundredth is that of the scenarios that can be graded: piles that an engine runs as well take nothing
+/// from it.
+TEST(ViewModel, UngradedScenariosDoNotLowerTheShareWithinAHundredth) {
+    results::Run run = twoScenarios();
+    CaseRow pile = makeCase("b", "both", 0.01, 1.0);
+    pile.accuracy = {};
+    run.cases = {makeCase("a", "both", 0.01, 1e-9), pile, makeCase("a", "one", 0.01, 0.01)};
+    const auto m = ViewModel(run).mechanisms().at(0);
+    EXPECT_EQ(m.rankings[0].gradable(), 1);
+    EXPECT_EQ(m.order, (std::vector<std::size_t>{0, 1})) << "both within, the smaller error first";
 }
 
 TEST(ViewModel, ErrorsAreComparedAtTheSameTimeStepAlone) {

@@ -29,7 +29,7 @@ std::optional<std::string> nearestName(const std::string& found, const std::vect
     std::size_t least = 0;
     for (const std::string& name : known) {
         const std::size_t distance = editDistance(found, name);
-        if (2 * distance > std::max(found.size(), name.size())) continue;
+        if (3 * distance > std::max(found.size(), name.size())) continue;
         if (best && distance >= least) continue;
         best = name;
         least = distance;

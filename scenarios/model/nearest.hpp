@@ -15,7 +15,7 @@ namespace rigor::scenario {
 std::size_t editDistance(const std::string& a, const std::string& b);
 
 /// The known name with the least edit distance, the first of several; empty when every one differs in more
-/// than half of the letters of the longer name.
+/// than a third of the letters of the longer name.
 std::optional<std::string> nearestName(const std::string& found, const std::vector<std::string>& known);
 
 /// "; did you mean 'NAME'?" for the nearest name, "" without one: the end of a message.

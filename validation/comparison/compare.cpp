@@ -94,20 +94,26 @@ double sizeOf(const CasePair& pair, const MetricRow& before, const MetricRow& af
         std::log(std::max(std::abs(after.value), least) / std::max(std::abs(before.value), least)));
 }
 
+/// Errors of one case depend on each other: the case counts once, by where more of its errors went.
 void compareMetrics(const CasePair& pair, const results::ScenarioRow* scenario, const CompareOptions& options,
                     SpecChange& spec, RunComparison& all) {
+    int better = 0, worse = 0;
     for (const MetricRow& m : pair.before->metrics) {
         const MetricRow* other = find(*pair.after, m);
         if (m.kind == "cost" || m.kind == "outcome" || other == nullptr || !m.subject.empty()) continue;
         const double ratio = growth(m.value, other->value, options);
         const bool isJudged = scenario == nullptr || results::isError(*other, *scenario) ||
                               !std::isfinite(m.value) || !std::isfinite(other->value);
-        if (isJudged) ++(ratio > 1.0 ? spec.worse : ratio < 1.0 ? spec.better : spec.same);
+        if (isJudged) ++(ratio > 1.0 ? worse : ratio < 1.0 ? better : spec.same);
         if (ratio != 1.0)
             all.metrics.push_back({placeOf(pair), m.name, m.subject, m.unit, m.value, other->value,
                                    isJudged && ratio > 1.0, isJudged && ratio < 1.0,
                                    sizeOf(pair, m, *other, options)});
     }
+    spec.better += better;
+    spec.worse += worse;
+    spec.casesBetter += better > worse;
+    spec.casesWorse += worse > better;
 }
 
 void compareVerdicts(const CasePair& pair, RunComparison& all) {
@@ -284,7 +290,7 @@ RunComparison compareRuns(const std::vector<Run>& before, const std::vector<Run>
     }
     if (specs.empty()) refuse(one, other, all);
     for (auto& [place, spec] : specs) {
-        spec.pErrors = signTest(spec.better, spec.worse);
+        spec.pCases = signTest(spec.casesBetter, spec.casesWorse);
         summariseTimes(times[place], spec);
         all.specs.push_back(spec);
     }

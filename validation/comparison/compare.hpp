@@ -54,7 +54,8 @@ struct SpecChange {
     double dt = 0.0, dtAfter = 0.0;  ///< [s] of a pair of time steps, else 0
     int cases = 0;
     int better = 0, worse = 0, same = 0;  ///< errors
-    double pErrors = 1.0;                 ///< sign test of better against worse
+    int casesBetter = 0, casesWorse = 0;  ///< cases of which more errors are better than worse; the reverse
+    double pCases = 1.0;                  ///< sign test of casesBetter against casesWorse
     int timed = 0;
     /// Medians over the cases of the ratio after / before of a step's median time, of its mean without the
     /// first step (which shows the rare slow step that a median hides), and of the first step.

@@ -83,7 +83,9 @@ Json specJson(const SpecChange& s, PairBy by) {
                 {"better", s.better},
                 {"worse", s.worse},
                 {"same", s.same},
-                {"p_errors", s.pErrors},
+                {"cases_better", s.casesBetter},
+                {"cases_worse", s.casesWorse},
+                {"p_cases", s.pCases},
                 {"timed", s.timed},
                 {"time_ratio", finite(s.timeRatio)},
                 {"time_interval",
@@ -101,14 +103,16 @@ std::string comparisonText(const RunComparison& c, const CompareOptions& options
     std::size_t width = 6;
     for (const SpecChange& s : c.specs) width = std::max(width, specName(s).size());
     text += padded("engine", width) +
-            "  cases  errors better/worse/same  sign test  time after/before: median of a step, median over "
-            "cases (95 %)\n";
+            "  cases  errors better/worse/same  cases better/worse  sign test of cases  time after/before: "
+            "median "
+            "of a step, median over cases (95 %)\n";
     for (const SpecChange& s : c.specs) {
         const std::string errors =
             std::to_string(s.better) + "/" + std::to_string(s.worse) + "/" + std::to_string(s.same);
+        const std::string cases = std::to_string(s.casesBetter) + "/" + std::to_string(s.casesWorse);
         text += padded(specName(s), width) + "  " + padded(std::to_string(s.cases), 5) + "  " +
-                padded(errors, 24) + "  " + padded("p = " + number(s.pErrors, "%.2g"), 9) + "  " +
-                timeText(s) + "\n";
+                padded(errors, 24) + "  " + padded(cases, 18) + "  " +
+                padded("p = " + number(s.pCases, "%.2g"), 18) + "  " + timeText(s) + "\n";
     }
     if (c.runsBefore < 3 || c.runsAfter < 3)
         text +=

@@ -26,6 +26,10 @@ TEST(Nearest, TheNearestNameOrNone) {
     EXPECT_EQ(nearestName("solver", {}), std::nullopt);
     EXPECT_EQ(didYouMean("iteratons", keys), "; did you mean 'iterations'?");
     EXPECT_EQ(didYouMean("xyz", keys), "");
+    EXPECT_EQ(nearestName("nope", {"ode", "rope"}), "rope") << "one letter";
+    EXPECT_EQ(nearestName("nope", {"ode"}), std::nullopt) << "two edits of four letters";
+    EXPECT_EQ(nearestName("od", {"ode"}), "ode");
+    EXPECT_EQ(nearestName("bulet", {"box2d", "bullet"}), "bullet");
 }
 
 }  // namespace

@@ -156,6 +156,44 @@ TEST(Compare, WhatIsNoErrorIsNeitherBetterNorWorse) {
         << "a number that is lost is worse, whichever it is";
 }
 
+/// Six errors of one case that change together are one observation, not six.
+TEST(Compare, TheSignTestCountsCases) {
+    Stored before = exampleRun();
+    for (auto& c : before.cases)
+        for (int i = 0; i < 6; ++i) {
+            c.metrics.push_back(c.metrics[0]);
+            c.metrics.back().name = "error_" + std::to_string(i);
+        }
+    Stored after = before;
+    const auto scale = [&](std::size_t index, int count, double factor) {
+        auto& metrics = after.cases[index].metrics;
+        for (auto m = metrics.end() - count; m != metrics.end(); ++m) m->value *= factor;
+    };
+    scale(0, 6, 0.5);
+    scale(1, 6, 0.5);
+    const SpecChange two = compareRuns({before}, {after}).specs[0];
+    EXPECT_EQ(two.better, 12);
+    EXPECT_EQ(two.casesBetter, 2);
+    EXPECT_EQ(two.casesWorse, 0);
+    EXPECT_DOUBLE_EQ(two.pCases, 0.5);
+    scale(2, 2, 2.0);
+    scale(3, 6, 2.0);
+    scale(3, 3, 0.25);  // three worse and three better: neither
+    const auto c = compareRuns({before}, {after});
+    EXPECT_EQ(c.specs[0].better, 15);
+    EXPECT_EQ(c.specs[0].worse, 5);
+    EXPECT_EQ(c.specs[0].casesBetter, 2);
+    EXPECT_EQ(c.specs[0].casesWorse, 1);
+    EXPECT_DOUBLE_EQ(c.specs[0].pCases, 1.0);
+    const auto listed = nlohmann::json::parse(comparisonJson(c)).at("specs").at(0);
+    EXPECT_EQ(listed.at("cases_better"), 2);
+    EXPECT_EQ(listed.at("cases_worse"), 1);
+    EXPECT_EQ(listed.at("p_cases"), 1.0);
+    const std::string text = comparisonText(c, {}, 5);
+    EXPECT_NE(text.find("cases better/worse  sign test of cases"), std::string::npos) << text;
+    EXPECT_NE(text.find("  2/1 "), std::string::npos) << text;
+}
+
 /// 20 % slower in every case: shown. A time that is slower in half the cases and faster in half is not
 ///    evidence.
 TEST(Compare, TimesNeedEvidence) {

@@ -4,8 +4,8 @@
 // The runs, and what changed or differs from each to the next.
 import { type Child, el } from '../common/elements.ts';
 import { counted, format, inShownUnit, shownUnit, timeStep, words } from '../common/format.ts';
-import type { Change, History, Pair, Place } from './data.ts';
-import { stateOf } from './marks.ts';
+import type { Change, History, Pair, Place, SpecChange } from './data.ts';
+import { type State, stateOf, timeState } from './marks.ts';
 import { factor, listOf, sign, table } from './parts.ts';
 import { replayable } from './replays.ts';
 import { caseKey, isOf } from './series.ts';
@@ -53,13 +53,16 @@ const where = (x: Place) =>
   `${x.scenario}, ${arrow(x.spec, x.spec_after ?? x.spec)}, ${arrow(timeStep(x.dt), timeStep(x.dt_after ?? x.dt))}`;
 
 /** "rigor:preset=default, 1/60 s → 1/240 s". */
-function specName({ name, spec, spec_after, dt, dt_after }: Change['specs'][number]): string {
+function specName({ name, spec, spec_after, dt, dt_after }: SpecChange): string {
   if (spec === undefined || spec_after === undefined) return name;
   const steps = dt === undefined || dt_after === undefined ? '' : `, ${arrow(timeStep(dt), timeStep(dt_after))}`;
   return arrow(spec, spec_after) + steps;
 }
 
-function specRow(s: Change['specs'][number]): HTMLElement {
+/** Verdicts on the times of a spec, as `rigor compare` prints them. */
+const timeWords: Record<State, string> = { worse: 'slower', better: 'faster', other: 'no difference shown' };
+
+function specRow(s: SpecChange): HTMLElement {
   const interval = s.time_interval ? ` (${s.time_interval.map((x) => x.toPrecision(3)).join(' … ')})` : '';
   return el(
     'tr',
@@ -68,8 +71,11 @@ function specRow(s: Change['specs'][number]): HTMLElement {
     el('td', { class: 'num' }, s.better),
     el('td', { class: 'num' }, s.worse),
     el('td', { class: 'num' }, s.same),
-    el('td', { class: 'num' }, probability(s.p_errors)),
+    el('td', { class: 'num' }, s.cases_better),
+    el('td', { class: 'num' }, s.cases_worse),
+    el('td', { class: 'num' }, probability(s.p_cases)),
     el('td', { class: 'num' }, s.time_ratio === null ? '—' : `${factor(s.time_ratio)}${interval}`),
+    el('td', null, s.time_ratio === null ? '—' : s.time_interval ? timeWords[timeState(s)] : 'too few cases'),
     el('td', { class: 'num' }, s.timed ? probability(s.p_time) : '—'),
   );
 }
@@ -145,7 +151,26 @@ export function changeNode(data: History, index: number): HTMLElement {
       replayLink(m),
     ]),
     table(
-      ['Engine', 'Errors better', 'worse', 'same', 'p', `Time of a step, run ${index + 2} ÷ run ${index + 1}`, 'p'],
+      [
+        'Engine',
+        'Errors better',
+        'worse',
+        'same',
+        el('span', { title: 'cases of which more errors are better than worse' }, 'Cases better'),
+        el('span', { title: 'cases of which more errors are worse than better' }, 'worse'),
+        el(
+          'span',
+          { title: 'two-sided sign test of the cases that are better against those that are worse' },
+          'p of cases',
+        ),
+        `Time of a step, run ${index + 2} ÷ run ${index + 1} (95 %)`,
+        el('span', { title: 'slower or faster where the 95 % interval over the cases excludes 1' }, 'Time'),
+        el(
+          'span',
+          { title: 'two-sided sign test of the cases that are slower against those that are faster' },
+          'p of times',
+        ),
+      ],
       change.specs.map(specRow),
     ),
     notes.length ? el('p', { class: 'muted small' }, `${notes.join('; ')}.`) : null,

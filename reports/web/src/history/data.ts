@@ -63,25 +63,30 @@ export interface Judged {
   better: boolean;
 }
 
+/** Comparison of one spec over all cases that both runs have, or of one pair of specs or time steps. */
+export interface SpecChange {
+  name: string;
+  spec?: string; // spec of the earlier run, if there is a pair
+  spec_after?: string;
+  dt?: number; // time step of the earlier run [s], if they differ on purpose
+  dt_after?: number;
+  cases: number;
+  better: number; // errors
+  worse: number;
+  same: number;
+  cases_better: number; // cases of which more errors are better than worse
+  cases_worse: number;
+  p_cases: number; // sign test of cases_better against cases_worse
+  timed: number;
+  time_ratio: number | null;
+  time_interval: [low: number, high: number] | null; // 95 %, over the cases; null: fewer than six
+  p_time: number;
+}
+
 /** Changes from a run to the next. */
 export interface Change {
   worse: boolean;
-  specs: {
-    name: string;
-    spec?: string; // spec of the earlier run, if there is a pair
-    spec_after?: string;
-    dt?: number; // time step of the earlier run [s], if they differ on purpose
-    dt_after?: number;
-    cases: number;
-    better: number;
-    worse: number;
-    same: number;
-    p_errors: number;
-    timed: number;
-    time_ratio: number | null;
-    time_interval: [low: number, high: number] | null;
-    p_time: number;
-  }[];
+  specs: SpecChange[];
   verdicts: (Place & Judged & { before: string; after: string; reason: string })[]; // the gravest first
   /** The largest first. `size`: logarithm of the ratio, null where a number is lost or new. */
   metrics: (Place & Judged & { metric: string; unit: string; before: Maybe; after: Maybe; size: number | null })[];

@@ -187,7 +187,7 @@ function scenarios(): HTMLElement {
     el(
       'p',
       { class: 'muted small' },
-      `A ring marks a ${data.pair ? 'difference' : 'change'}: of an error by more than 1 %, of a time by more than 10 % where also the 95 % intervals of the two medians have no value in common.`,
+      `A ring marks a ${data.pair ? 'difference' : 'change'}: of an error by more than 1 %, of a time by more than 10 % where the 95 % intervals of the two medians have no value in common and the times of its engine over all cases (${data.pair ? 'What differs' : 'What changed'}) are slower or faster, too. The intervals of one case hold the spread within a run, not that between runs.`,
     ),
     list,
     more,

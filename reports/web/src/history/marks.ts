@@ -2,10 +2,12 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Changes of a case and their size: errors by the comparison of the runs, times by more than a tenth where the
-// intervals of the two medians have no value in common: a median varies from run to run by more than within one.
+// intervals of the two medians have no value in common and the comparison of the spec over its cases shows a difference
+// in the same direction. The intervals of one case alone do not suffice: they hold the spread within a run, and a
+// median varies by more from run to run.
 import { toNumber } from '../common/format.ts';
-import type { History, Judged, Series } from './data.ts';
-import { isOf } from './series.ts';
+import type { Change, History, Judged, Series, SpecChange } from './data.ts';
+import { isOf, isOfSpec } from './series.ts';
 
 export type State = 'worse' | 'better' | 'other';
 
@@ -26,13 +28,21 @@ export const stateOf = ({ worse, better }: Judged): State => (worse ? 'worse' : 
 const ratioOf = (before: number, after: number): number =>
   Math.abs(before) < small ? (Math.abs(after) < small ? 1 : Infinity) : Math.abs(after) / Math.abs(before);
 
-function timeMark(s: Series, run: number): Mark | null {
+/** Result of the comparison of times over the cases of a spec: its 95 % interval without 1; 'other' if none is shown. */
+export function timeState({ time_interval }: SpecChange): State {
+  if (!time_interval) return 'other';
+  return time_interval[0] > 1 ? 'worse' : time_interval[1] < 1 ? 'better' : 'other';
+}
+
+function timeMark(s: Series, run: number, change: Change | null | undefined): Mark | null {
   const [low, high] = [toNumber(s.low[run]), toNumber(s.high[run])];
   const [lowBefore, highBefore] = [toNumber(s.low[run - 1]), toNumber(s.high[run - 1])];
   const ratio = toNumber(s.time[run]) / toNumber(s.time[run - 1]);
   const size = Math.abs(Math.log(ratio));
   if (!(low > highBefore || high < lowBefore) || !(size > Math.log(leastFactor))) return null;
-  return { run, what: 'time', ratio, size, state: ratio > 1 ? 'worse' : 'better' };
+  const state = ratio > 1 ? 'worse' : 'better';
+  const spec = change?.specs.find((c) => isOfSpec(s, c, run));
+  return spec && timeState(spec) === state ? { run, what: 'time', ratio, size, state } : null;
 }
 
 export function marksOf({ changes }: History, s: Series): Mark[] {
@@ -46,7 +56,7 @@ export function marksOf({ changes }: History, s: Series): Mark[] {
       const ratio = ratioOf(toNumber(error.before), toNumber(error.after));
       marks.push({ run, what: 'error', ratio, size: error.size ?? Infinity, state: stateOf(error) });
     }
-    const time = timeMark(s, run);
+    const time = timeMark(s, run, change);
     if (time) marks.push(time);
   }
   return marks;

@@ -3,7 +3,7 @@
 //
 // Series of cases through the runs: their names, and the case of each run.
 import { timeStep, toNumber } from '../common/format.ts';
-import type { OwnCase, Pair, Place, Series } from './data.ts';
+import type { OwnCase, Pair, Place, Series, SpecChange } from './data.ts';
 
 /** The case of a run. */
 export const caseAt = (s: Series, run: number): OwnCase => s.cases?.[run] ?? s;
@@ -21,6 +21,18 @@ export function isOf(s: Series, place: Place, run: number): boolean {
     toNumber(dt) === place.dt &&
     after.spec === (place.spec_after ?? place.spec) &&
     toNumber(after.dt) === (place.dt_after ?? place.dt)
+  );
+}
+
+/** True for the comparison of the specs of this series in the run before `run` and in `run`. */
+export function isOfSpec(s: Series, change: SpecChange, run: number): boolean {
+  const [before, after] = [caseAt(s, run - 1), caseAt(s, run)];
+  const hasStep = (own: number | undefined, dt: OwnCase['dt']) => own === undefined || own === toNumber(dt);
+  return (
+    before.spec === (change.spec ?? change.name) &&
+    after.spec === (change.spec_after ?? change.name) &&
+    hasStep(change.dt, before.dt) &&
+    hasStep(change.dt_after, after.dt)
   );
 }
 

@@ -240,7 +240,8 @@ export interface Ranking {
   red: number;
   toBest: Maybe; // typical error over the best engine's
   toOurs: Maybe; // ratio to the in-house engine's
-  cost: Maybe; // median of a step [s]
+  cost: Maybe; // median of a step in the scenarios that can be graded, in all where none can [s]
+  timed: number; // scenarios of `cost`
   costRatio: Maybe; // ratio to the cheapest engine's
 }
 
@@ -251,6 +252,7 @@ export interface Mechanism {
   about: string;
   scenarios: string[];
   order: number[]; // columns that took part, the most trusted first
+  engines: number[]; // columns of `order`, of each engine its first one: its best preset
   best: number; // column; -1: none
   rankings: Ranking[]; // one ranking per column
 }

@@ -3,7 +3,7 @@
 //
 // The page of `rigor history`: what changed comes first, with its numbers and statistics; filters stand in the address.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { cpSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, test } from 'node:test';
 import type { History } from '../../src/history/data.ts';
@@ -30,7 +30,15 @@ describe('the history of three runs', { skip }, () => {
     assert.ok(change);
     const text = await it.text('#changes .change');
     assert.ok(text.includes(change.metrics[0]?.scenario ?? '?'), text.slice(0, 200));
-    assert.match(text, /×1\.2 \(1\.10 … 1\.30\)/);
+    assert.match(text, /×1\.2 \(1\.10 … 1\.30\)slower/);
+    const heads = await it.page.locator('#changes .change th[scope="col"]').allTextContents();
+    assert.deepEqual(heads.slice(4, 7), ['Cases better', 'worse', 'p of cases']);
+    const cells = await it.page.locator('#changes .change tbody td').allTextContents();
+    assert.deepEqual(cells.slice(0, 6), ['0', '15', '19', '0', '1', '1'], 'fifteen errors of one case are one case');
+    assert.match(
+      await it.text('#scenarios'),
+      /times of its engine over all cases \(What changed\) are slower or faster/,
+    );
     assert.equal(await it.page.locator('#changes code').count(), 3, 'commands are marked up');
     await it.page.screenshot({ path: join(screenshots, 'history.png'), fullPage: true });
     it.clean();
@@ -114,8 +122,9 @@ describe('the history of three runs', { skip }, () => {
 describe('two runs with their replays', { skip }, () => {
   const it = reportOf(() => {
     const run = smokeRun();
-    const folder = join(run, '..', 'two_runs');
-    program('bin/rigor', 'history', run, run, '--out', folder);
+    const [folder, again] = [join(run, '..', 'two_runs'), join(run, '..', 'smoke_again')];
+    cpSync(run, again, { recursive: true });
+    program('bin/rigor', 'history', run, again, '--out', folder);
     return folder;
   });
 

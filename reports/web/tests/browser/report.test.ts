@@ -19,6 +19,11 @@ describe('the report of a real run', { skip }, () => {
     const elements = await it.page.evaluate(() => document.querySelectorAll('*').length);
     assert.ok(elements < 2000, `it opens soon: ${elements} elements`); // 700 were measured
     assert.ok(await it.page.locator('#trust [data-task="sliding"]').isVisible());
+    const answer = await it.text('#trust [data-task="sliding"] .answer');
+    const named = /^First: (\w+).* Next, each engine by its best preset: (.*)\.$/s.exec(answer);
+    const engines = [named?.[1], ...(named?.[2] ?? '').split(', ').map((label) => label.split(' ')[0])];
+    assert.ok(engines.length > 1 && new Set(engines).size === engines.length, answer);
+    assert.match(await it.text('#trust'), /at least half as many scenarios as the one that completed most/);
     await it.page.screenshot({ path: join(screenshots, 'overview.png') });
     await it.open('#scoreboard');
     const names = query(it.run, 'SELECT name FROM scenarios ORDER BY position').flat();

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import type { Change, History, Series } from '../../src/history/data.ts';
+import type { Change, History, Series, SpecChange } from '../../src/history/data.ts';
 import { type Mark, marksOf, weight } from '../../src/history/marks.ts';
-import { firstMoment, isOf, ownName, ownNames, seriesNames } from '../../src/history/series.ts';
+import { firstMoment, isOf, isOfSpec, ownName, ownNames, seriesNames } from '../../src/history/series.ts';
 
 const series: Series = {
   scenario: 's',
@@ -50,13 +50,48 @@ const error = {
 };
 const historyOf = (...changes: (Change | null)[]): History => ({ pair: '', runs: [], series: [series], changes });
 
-test('times change where their intervals have no value in common', () => {
-  const marks = marksOf(historyOf(null, nothing), series);
+const spec: SpecChange = {
+  name: 'x',
+  cases: 8,
+  better: 0,
+  worse: 0,
+  same: 8,
+  cases_better: 0,
+  cases_worse: 0,
+  p_cases: 1,
+  timed: 8,
+  time_ratio: 0.5,
+  time_interval: [0.4, 0.6],
+  p_time: 0.01,
+};
+const timed = (...specs: SpecChange[]): Change => ({ ...nothing, specs });
+
+test('times change where their intervals have no value in common and the spec differs over its cases', () => {
+  const marks = marksOf(historyOf(null, timed({ ...spec, name: 'y' }, spec)), series);
   assert.deepEqual(
     marks.map(({ run, what, state }) => ({ run, what, state })),
     [{ run: 2, what: 'time', state: 'better' }],
   );
   assert.ok(Math.abs((marks[0]?.ratio ?? 0) - 0.5 / 1.05) < 1e-12);
+});
+
+test('no time is marked that the comparison of the spec over its cases does not show', () => {
+  const none = (...specs: SpecChange[]) => assert.deepEqual(marksOf(historyOf(null, timed(...specs)), series), []);
+  none({ ...spec, time_interval: [0.6, 1.1] });
+  none({ ...spec, time_interval: [1.1, 1.6] });
+  none({ ...spec, time_interval: null });
+  none({ ...spec, name: 'y' });
+  none();
+  assert.deepEqual(marksOf(historyOf(null, null), series), []);
+});
+
+test('the comparison of a spec belongs to the series whose specs and time steps it names', () => {
+  assert.ok(isOfSpec(series, spec, 2));
+  const two: Series = { ...refined, cases: [refined.cases?.[0] ?? null, refined.cases?.[2] ?? null] };
+  const steps = { ...spec, name: 'x dt=0.02 -> 0.005', spec: 'x', spec_after: 'x', dt: 0.02, dt_after: 0.005 };
+  assert.ok(isOfSpec(two, steps, 1));
+  assert.ok(!isOfSpec(two, { ...steps, dt_after: 0.01 }, 1));
+  assert.ok(!isOfSpec(two, { ...steps, spec_after: 'y' }, 1));
 });
 
 test('errors and endings change where the comparison of the runs says so', () => {

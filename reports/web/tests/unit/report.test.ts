@@ -9,7 +9,7 @@ import { cellOf, errorOf, gradeOf, logPlace, relativeOf, severity } from '../../
 import { barScale } from '../../src/report/charts/bars.ts';
 import { logTicks, nearest, spreadsByDecades, unpack, widened, withGaps } from '../../src/report/charts/samples.ts';
 import type { BriefCase, Column, Judged, Mechanism, Ranking, Scenario } from '../../src/report/data.ts';
-import { placed, wrongIn } from '../../src/report/ranking.ts';
+import { gradable, placed, placedEngines, worstPresets, wrongIn } from '../../src/report/ranking.ts';
 
 test('numbers are read and written', () => {
   assert.equal(toNumber('inf'), Infinity);
@@ -133,6 +133,7 @@ test('rankings meet their columns in the order that was counted', () => {
     toOurs: null,
     cost: null,
     costRatio: null,
+    timed: 0,
   });
   const m: Mechanism = {
     name: 'm',
@@ -140,6 +141,7 @@ test('rankings meet their columns in the order that was counted', () => {
     about: '',
     scenarios: ['one', 'two'],
     order: [1, 0],
+    engines: [1, 0],
     best: 1,
     rankings: [ranking(1), ranking(2)],
   };
@@ -156,6 +158,22 @@ test('rankings meet their columns in the order that was counted', () => {
   ];
   const wrong = (spec: string) => wrongIn(lists, column(spec)).map((w) => w.scenario.name);
   assert.deepEqual([wrong('bad'), wrong('lost'), wrong('good')], [['two'], ['one'], []]);
+  assert.equal(gradable({ ...ranking(1), ungraded: 1 }), 1);
+
+  const presets = ['a fast', 'a default', 'b default', 'c default'].map((label) => ({
+    ...column(label),
+    engine: label.slice(0, 1),
+  }));
+  const four: Mechanism = { ...m, order: [3, 2, 1, 0], engines: [3, 2, 1], rankings: [0, 1, 1, 2].map(ranking) };
+  assert.deepEqual(
+    placedEngines(four, presets).map((s) => s.column.spec),
+    ['c default', 'b default', 'a default'],
+  );
+  assert.deepEqual(
+    worstPresets(placed(four, presets)).map((s) => s.column.spec),
+    ['b default', 'a fast'],
+    'each engine once, by the preset with most wrong',
+  );
 });
 
 test('samples', () => {

@@ -7,7 +7,7 @@ import { el } from '../../common/elements.ts';
 import { duration, ratio, toNumber } from '../../common/format.ts';
 import type { Engine, Mechanism } from '../data.ts';
 import { wrongText } from '../overview/trust.ts';
-import { type Placed, placed } from '../ranking.ts';
+import { type Placed, placed, wrongCount as wrong } from '../ranking.ts';
 import { run } from '../run.ts';
 import { gradeChip, panel } from '../widgets.ts';
 
@@ -25,8 +25,6 @@ const of = (engine: Engine): Found[] =>
       .filter((s) => s.column.engine === engine.name)
       .map((ranking) => ({ mechanism, ranking })),
   );
-
-const wrong = (s: Placed): number => s.lost + (s.grades[4] ?? 0);
 
 function text({ ranking: s }: Found): string {
   const parts = [`${s.within} of ${s.scenarios} within a hundredth`];

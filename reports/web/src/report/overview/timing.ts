@@ -149,7 +149,7 @@ const finite = (value: Maybe | undefined): string => (Number.isFinite(toNumber(v
 
 /** Medians over the scenarios; the phases that an engine reports, as fractions of its step. */
 function summaryTable(): HTMLElement {
-  const costly = placed(run.overall, run.columns).filter((s) => toNumber(s.cost) > 0);
+  const costly = placed(run.overall, run.columns).filter((s) => toNumber(s.costRatio) > 0);
   const list = byClock(costly, (s) => clockOf(s.column)).flatMap((group) => group.items);
   const phases = (spec: string) => {
     const shares = new Map<string, number[]>();
@@ -198,8 +198,7 @@ function summaryTable(): HTMLElement {
               s.column.label,
               clockOf(s.column) ? el('span', { class: 'sub' }, clockOf(s.column)) : null,
             ),
-            el('td', { class: 'num' }, duration(s.cost)),
-            (['mean', 'first', 'p95', 'p99', 'worst'] as const).map((key) =>
+            (['median', 'mean', 'first', 'p95', 'p99', 'worst'] as const).map((key) =>
               el('td', { class: 'num' }, duration(costs(s.column)?.[key])),
             ),
             el('td', { class: 'num' }, finite(costs(s.column)?.realTimeFactor)),

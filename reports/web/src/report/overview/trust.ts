@@ -6,12 +6,13 @@ import { type Child, el } from '../../common/elements.ts';
 import { duration, ratio, toNumber } from '../../common/format.ts';
 import { isLost } from '../cells.ts';
 import type { Mechanism } from '../data.ts';
-import { type Placed, placed, wrongIn } from '../ranking.ts';
+import { gradable, type Placed, placed, placedEngines, worstPresets, wrongCount, wrongIn } from '../ranking.ts';
 import { dimensionNote, engineLink, run, scenarioLink, scenarioOf, verdictText } from '../run.ts';
 import { folded, gradeBar, gradeChip, headRow, looseHeadRow, panel, scroll } from '../widgets.ts';
 import { filterScoreboard } from './filters.ts';
 
 const mostNamed = 4;
+const mostNext = 2; // engines after the first in the sentences of a task
 
 /** "E or lost in: a, b and 3 more", with links; null where there is none. */
 export function wrongText(m: Mechanism, s: Placed): Child {
@@ -30,7 +31,16 @@ export function wrongText(m: Mechanism, s: Placed): Child {
   ];
 }
 
-function line(m: Mechanism, s: Placed): HTMLElement[] {
+/**
+ * Median of a step in the scenarios that can be graded, in all where none can; "—" where an engine has none of these. It names their
+ * number where other engines were timed in more.
+ */
+function stepText(s: Placed, most: number): Child {
+  if (s.timed === 0) return '—';
+  return [duration(s.cost), s.timed < most ? el('span', { class: 'sub' }, `in ${s.timed} of ${most}`) : null];
+}
+
+function line(m: Mechanism, s: Placed, mostTimed: number): HTMLElement[] {
   const wrong = wrongText(m, s);
   const row = el(
     'tr',
@@ -39,23 +49,25 @@ function line(m: Mechanism, s: Placed): HTMLElement[] {
     el('td', null, gradeBar(s.grades)),
     el('td', { class: 'num' }, ratio(s.toBest) || '—'),
     el('td', { class: 'num' }, ratio(s.toOurs) || '—'),
-    el('td', { class: 'num' }, duration(s.cost)),
+    el('td', { class: 'num' }, stepText(s, mostTimed)),
   );
   return wrong ? [row, el('tr', { class: 'why' }, el('td', { colspan: 5 }, wrong))] : [row];
 }
 
-/** The result in a sentence. */
-function answer(m: Mechanism, list: Placed[]): Child {
-  const best = list.find((s) => run.columns[m.best] === s.column);
+/** The result in sentences: the first engine, and those that follow, each by its best preset. */
+function answer(m: Mechanism): Child {
+  const [best, ...others] = m.best >= 0 ? placedEngines(m, run.columns) : [];
   if (best === undefined) return el('p', { class: 'answer' }, 'No engine can be ranked here.');
   const error = Number.isFinite(toNumber(best.toBest)) ? `, typical error ${ratio(best.toBest)} the best one’s` : '';
   const cost = Number.isFinite(toNumber(best.cost)) ? `, ${duration(best.cost)} a step` : '';
+  const next = others.slice(0, mostNext);
   return el(
     'p',
     { class: 'answer' },
-    'Nearest to the exact solutions: ',
+    'First: ',
     el('b', null, best.column.label),
-    `, within a hundredth of the scene’s own scale in ${best.within} of ${best.scenarios - best.ungraded} that can be graded${error}${cost}.`,
+    `, within a hundredth of the scene’s own scale in ${best.within} of ${gradable(best)} that can be graded${error}${cost}.`,
+    next.length ? ` Next, each engine by its best preset: ${next.map((s) => s.column.label).join(', ')}.` : '',
   );
 }
 
@@ -70,12 +82,13 @@ function absentText(list: Placed[]): Child {
 
 function card(task: Mechanism): HTMLElement {
   const list = placed(task, run.columns);
+  const mostTimed = Math.max(...list.map((s) => s.timed));
   return el(
     'article',
     { class: 'task', 'data-task': task.name },
     el('h3', null, task.title),
     el('p', { class: 'muted small' }, task.about),
-    answer(task, list),
+    answer(task),
     el(
       'table',
       { class: 'full ranking' },
@@ -83,7 +96,7 @@ function card(task: Mechanism): HTMLElement {
       el(
         'tbody',
         null,
-        list.map((s) => line(task, s)),
+        list.map((s) => line(task, s, mostTimed)),
       ),
     ),
     absentText(list),
@@ -95,15 +108,18 @@ function card(task: Mechanism): HTMLElement {
   );
 }
 
+const bestHead = 'First choices, each engine by its best preset';
+const worstHead = 'Grade E or lost, each engine by its worst preset';
+
 function mechanismRow(m: Mechanism): HTMLElement {
   const filter = () => filterScoreboard({ mechanism: m.name });
-  const list = placed(m, run.columns);
-  const wrong = list.filter((s) => s.lost + (s.grades[4] ?? 0) > 0);
+  const list = placedEngines(m, run.columns);
+  const wrong = worstPresets(placed(m, run.columns));
   const nameOf = (s: Placed) =>
     gradeChip(
       '',
-      [s.column.label, ' ', el('b', null, `${s.within}/${s.scenarios}`), ' ', ratio(s.toBest)],
-      `${s.column.label}: ${s.within} of ${s.scenarios} within a hundredth, error ${ratio(s.toBest) || 'unknown'} the best, ${ratio(s.toOurs) || 'unknown'} ours`,
+      [s.column.label, ' ', el('b', null, `${s.within}/${gradable(s)}`), ' ', ratio(s.toBest)],
+      `${s.column.label}: ${s.within} of ${gradable(s)} that can be graded within a hundredth, error ${ratio(s.toBest) || 'unknown'} the best, ${ratio(s.toOurs) || 'unknown'} ours`,
     );
   return el(
     'tr',
@@ -112,15 +128,13 @@ function mechanismRow(m: Mechanism): HTMLElement {
     el('td', { class: 'num', 'data-label': 'Scenarios' }, m.scenarios.length),
     el(
       'td',
-      { 'data-label': 'Nearest first' },
+      { 'data-label': bestHead },
       m.best >= 0 ? list.slice(0, mostNamed).map(nameOf) : el('span', { class: 'muted' }, 'no engine ranked'),
     ),
     el(
       'td',
-      { 'data-label': 'Grade E or lost' },
-      wrong
-        .slice(0, mostNamed)
-        .map((s) => gradeChip('E', `${s.column.label} ${s.lost + (s.grades[4] ?? 0)}/${s.scenarios}`)),
+      { 'data-label': worstHead },
+      wrong.slice(0, mostNamed).map((s) => gradeChip('E', `${s.column.label} ${wrongCount(s)}/${s.scenarios}`)),
       wrong.length > mostNamed ? el('span', { class: 'small muted' }, `and ${wrong.length - mostNamed} more`) : null,
       wrong.length ? null : el('span', { class: 'muted' }, '—'),
     ),
@@ -133,7 +147,7 @@ export function trust(): HTMLElement | null {
     el(
       'table',
       { class: 'full stacked' },
-      headRow(['Mechanism', 'Scenarios', 'Nearest first', 'Grade E or lost'], (i) => i === 1),
+      headRow(['Mechanism', 'Scenarios', bestHead, worstHead], (i) => i === 1),
       el('tbody', null, run.mechanisms.map(mechanismRow)),
     );
   return panel(
@@ -142,8 +156,9 @@ export function trust(): HTMLElement | null {
     el(
       'p',
       { class: 'muted' },
-      'In the order of: fewest runs lost or of grade E, then most within a hundredth of the scenario’s own scale (grade C or better), then the smallest error, then the least time of a step, all at the same ',
-      'time step; steps are timed in scenes that can be graded. “× best” is the typical error over the most accurate engine’s, “× ours” over that of ',
+      'In this order: engines that completed at least half as many scenarios as the one that completed most, and have an error to compare; among them, and among the others after them, those with the smallest share of scenarios lost or of grade E, then ',
+      'with the largest share of those that can be graded within a hundredth of the scenario’s own scale (grade C or better), then with the smallest “× best”, then with the least time of a step by the same clock. ',
+      'All is at the finest time step that any engine completed; lost is what was lost at any. Steps are timed in scenes that can be graded, in all where none can. “× best” is the typical error over the most accurate engine’s, “× ours” over that of ',
       run.inHouse,
       ' in the same preset; errors within grade A, or within what a scenario calls negligible, count as equal. An engine by itself: ',
       [...new Set(run.columns.map((c) => c.engine))].map((e, i) => [
@@ -157,7 +172,7 @@ export function trust(): HTMLElement | null {
       el(
         'p',
         { class: 'muted small' },
-        'Beside each engine: scenarios within a hundredth of their own scale, and the typical error over the best one’s.',
+        'Beside each engine: scenarios within a hundredth of their own scale of those that can be graded, and the typical error over the best one’s.',
       ),
       scroll(table()),
     ]),
