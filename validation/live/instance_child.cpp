@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "scenarios/loader/loader.hpp"
@@ -33,7 +34,7 @@ class Worker {
         else if (command == "stage")
             (void)instance_->stage();
         else if (command == "go_to")
-            instance_->goTo(request.at("step"));
+            goTo(request.at("step"));
         else if (command == "drag")
             instance_->drag(Drag{request.at("body"), vectorOf(request.at("point")),
                                  vectorOf(request.at("target")), request.value("stiffness", 0.0)});
@@ -42,7 +43,7 @@ class Worker {
         else if (command != "state")
             throw std::runtime_error("no command '" + command + "'");
         Packet packet = instanceFrame(*instance_, request.value("stages", false));
-        packet.header["step_seconds"] = stepSeconds_;
+        if (stepSeconds_) packet.header["step_seconds"] = *stepSeconds_;
         return packet;
     }
 
@@ -55,6 +56,10 @@ class Worker {
         if (const std::size_t done = instance_->steps() - before; done > 0)
             stepSeconds_ =
                 std::chrono::duration<double>(Clock::now() - begin).count() / static_cast<double>(done);
+    }
+    void goTo(std::size_t step) {
+        stepSeconds_.reset();  // the steps on the way there were not timed
+        instance_->goTo(step);
     }
     Packet load(const json& request) {
         const scenario::Scenario s =
@@ -74,7 +79,8 @@ class Worker {
     }
 
     std::unique_ptr<InstanceWorld> instance_;
-    double stepSeconds_ = 0.0;  ///< wall time of a step, mean of the last advance
+    std::optional<double>
+        stepSeconds_;  ///< wall time of a step, mean of the last advance; none after a go_to
 };
 
 Packet failure(const char* kind, const char* message) {

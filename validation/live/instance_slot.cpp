@@ -185,7 +185,7 @@ void InstanceSlot::store(InstanceProcess::Answer answer, bool ofStage) {
             description_ = header["instance"];
             header.erase("instance");
         }
-        stepSeconds_ = header.value("step_seconds", 0.0);
+        stepSeconds_ = header.value("step_seconds", stepSeconds_);
         frame_ = std::move(answer.packet);
         ++frames_;
         if (step_ >= clock_.target) catchingUp_ = false;

@@ -109,7 +109,7 @@ class InstanceSlot {
     State state_ = State::Loading;
     std::string message_;
     std::size_t step_ = 0;
-    double stepSeconds_ = 0.0;  ///< written and read by the thread alone
+    double stepSeconds_ = 0.0;  ///< last known time of a step, written and read by the thread alone
     bool inStep_ = false, catchingUp_ = true, closing_ = false;
     bool toLoad_ = true;      ///< the thread starts a new process
     bool resetting_ = false;  ///< a reset was requested and the instance is not at its start yet

@@ -37,6 +37,10 @@ TEST_F(Processes, LoadAndAdvance) {
     ASSERT_EQ(moved.kind, Kind::Done);
     EXPECT_EQ(moved.packet.header["step"], 12);
     EXPECT_GT(moved.packet.header["step_seconds"].get<double>(), 0.0);
+    const auto back = instance_.send({{"command", "go_to"}, {"step", 5}}, 20);
+    ASSERT_EQ(back.kind, Kind::Done) << back.message;
+    EXPECT_EQ(back.packet.header["step"], 5);
+    EXPECT_FALSE(back.packet.header.contains("step_seconds")) << "the time of steps that were taken back";
 }
 
 TEST_F(Processes, RefusalsAreNoEnd) {

@@ -75,7 +75,11 @@ function specRow(s: SpecChange): HTMLElement {
     el('td', { class: 'num' }, s.cases_worse),
     el('td', { class: 'num' }, probability(s.p_cases)),
     el('td', { class: 'num' }, s.time_ratio === null ? '—' : `${factor(s.time_ratio)}${interval}`),
-    el('td', null, s.time_ratio === null ? '—' : s.time_interval ? timeWords[timeState(s)] : 'too few cases'),
+    el(
+      'td',
+      { class: 'state' },
+      s.time_ratio === null ? '—' : s.time_interval ? timeWords[timeState(s)] : 'too few cases',
+    ),
     el('td', { class: 'num' }, s.timed ? probability(s.p_time) : '—'),
   );
 }
@@ -163,7 +167,7 @@ export function changeNode(data: History, index: number): HTMLElement {
           { title: 'two-sided sign test of the cases that are better against those that are worse' },
           'p of cases',
         ),
-        `Time of a step, run ${index + 2} ÷ run ${index + 1} (95 %)`,
+        `Time of a step, run ${index + 2} ÷ ${index + 1} (95 %)`,
         el('span', { title: 'slower or faster where the 95 % interval over the cases excludes 1' }, 'Time'),
         el(
           'span',

@@ -5,7 +5,7 @@
 // says so in words and by its mark.
 import { el } from '../common/elements.ts';
 import type { Engine, InstanceState } from './api.ts';
-import { historyLine, instanceLine } from './labels.ts';
+import { historyLine, instanceParts, writeParts } from './labels.ts';
 import type { SessionView } from './session_view.ts';
 
 const marks: Record<InstanceState['state'], string> = {
@@ -82,7 +82,8 @@ export class InstancesPanel {
       const source = this.#session.sources.get(instance.id);
       const line = this.#list.querySelector(`[data-instance="${instance.id}"] .where`);
       if (!line || !source) continue;
-      line.textContent = [instanceLine(source, false), historyLine(source)].filter(Boolean).join(' · ');
+      const history = historyLine(source);
+      writeParts(line, [...instanceParts(source), ...(history ? [{ text: history }] : [])]);
     }
   }
 

@@ -66,8 +66,12 @@ test('a person plays, looks inside a step, drags, branches and saves', { skip },
     await page.waitForFunction(() => document.querySelector('.clock')?.textContent === '0.0166667 s');
     await page.keyboard.press('Shift+ArrowRight');
     await page.waitForFunction(() => document.querySelector('.clock')?.textContent === '0.183333 s');
+    const time = page.locator('.where').first().locator('span', { hasText: 'a step' });
+    assert.match((await time.getAttribute('title')) ?? '', /measured in the live process/);
     await page.keyboard.press('ArrowLeft');
     await page.waitForFunction(() => document.querySelector('.clock')?.textContent === '0.166667 s');
+    await page.waitForFunction(() => document.querySelector('.where')?.textContent?.includes('step 10'));
+    assert.equal(await time.count(), 0, 'the time of steps that were taken back is gone');
   });
 
   await t.test('shows the numbers of the engine', async () => {

@@ -9,6 +9,7 @@ import { Dragger, type Held, meet } from '../../src/live/drag.ts';
 import { curves, mostCurves } from '../../src/live/impulse_plot.ts';
 import { InstanceSource } from '../../src/live/instance_source.ts';
 import { type KeyActions, keyAction } from '../../src/live/keys.ts';
+import { instanceParts } from '../../src/live/labels.ts';
 import { type StageData, stageData } from '../../src/live/stage_data.ts';
 import { type Frame, middleOf } from '../../src/replay/frames.ts';
 import type { Pick } from '../../src/replay/view.ts';
@@ -153,6 +154,20 @@ test('what stages have made is read in its order', () => {
   assert.deepEqual(Array.from(data.iterations[1]?.impulses ?? []), [10, 11, 12]);
   assert.equal(data.iterations[1]?.substep, 1);
   assert.equal(stageData(head(4), staged), null);
+});
+
+test('the time of a step and the residual say what they are', () => {
+  const instance = new InstanceSource(3, 'instance 3', 'rigor', '#fff');
+  instance.push(head(2, { counters: { residual: 1e-5 }, step_seconds: 1.27e-3 }), frame(2));
+  const titleOf = (words: RegExp) => instanceParts(instance).find(({ text }) => words.test(text))?.title ?? '';
+  assert.match(titleOf(/^1\.27 ms a step$/), /measured in the live process.*not the cost of a step/);
+  assert.match(titleOf(/^residual /), /the engine’s own measure: not comparable/);
+  instance.push(head(1), frame(1));
+  assert.deepEqual(
+    instanceParts(instance).map((part) => part.text),
+    ['t = 0.1 s', 'step 1'],
+    'no time after a step back',
+  );
 });
 
 test('inside a step the manifolds are the contacts, with the impulses of their rows', () => {
