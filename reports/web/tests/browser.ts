@@ -89,6 +89,14 @@ export const makeBench = once(() => synthetic('bench'));
 /** The history of three synthetic runs, the last one with one worse case. */
 export const makeHistory = once(() => synthetic('history'));
 
+/** The history of a run beside itself. */
+export const makeTwoRuns = once(() => {
+  const run = smokeRun();
+  const folder = join(run, '..', 'two_runs');
+  program('bin/rigor', 'history', run, run, '--out', folder);
+  return folder;
+});
+
 /** The collision cases of the library that have closed forms. */
 export const makeCollide = once(() => {
   const folder = emptyFolder('collide');

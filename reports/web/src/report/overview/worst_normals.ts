@@ -57,10 +57,10 @@ function row(w: Wrong, head: Child): HTMLElement {
     'tr',
     null,
     head,
-    el('td', { class: 'num', title: `${full(w.normal)} rad` }, angle(w.normal)),
-    el('td', null, w.scenario.title),
-    el('td', null, w.place?.bodies.join(' and ') ?? ''),
-    el('td', null, `${labelOf(w.spec)}, ${timeStep(w.dt)}`),
+    el('td', { class: 'num', 'data-label': 'Normal off by', title: `${full(w.normal)} rad` }, angle(w.normal)),
+    el('td', { 'data-label': 'Scene' }, w.scenario.title),
+    el('td', { 'data-label': 'Between' }, w.place?.bodies.join(' and ') ?? ''),
+    el('td', { 'data-label': 'Run' }, `${labelOf(w.spec)}, ${timeStep(w.dt)}`),
     el(
       'td',
       null,
@@ -94,7 +94,7 @@ export function worstNormals(): Child {
     scroll(
       el(
         'table',
-        { id: 'worst-normals' },
+        { id: 'worst-normals', class: 'stacked' },
         headRow(heads, (i) => i === 1),
         el('tbody', null, rows),
       ),
