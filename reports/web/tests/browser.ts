@@ -5,7 +5,7 @@
 // CMake bundles all files of tests into one (build.mjs), so that they share one Chromium and each report is made once.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, rmSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before } from 'node:test';
 import { type Browser, type BrowserContextOptions, chromium, type Page } from 'playwright-core';
@@ -88,6 +88,15 @@ export const makeBench = once(() => synthetic('bench'));
 
 /** The history of three synthetic runs, the last one with one worse case. */
 export const makeHistory = once(() => synthetic('history'));
+
+/** The history of a run beside itself. */
+export const makeTwoRuns = once(() => {
+  const run = smokeRun();
+  const [folder, again] = [join(run, '..', 'two_runs'), join(run, '..', 'smoke_again')];
+  cpSync(run, again, { recursive: true });
+  program('bin/rigor', 'history', run, again, '--out', folder);
+  return folder;
+});
 
 /** The collision cases of the library that have closed forms. */
 export const makeCollide = once(() => {

@@ -169,7 +169,7 @@ class Picture {
     view.setOptions({ overlaid: true, colouring: 'body' });
     view.setFinding(finding ? { spec: answer.engine, finding } : null);
     view.draw();
-    view.lookAtFinding();
+    view.lookAtFinding(true);
     this.#end = followTheme(view);
     this.#view = view;
   }

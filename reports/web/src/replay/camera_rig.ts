@@ -159,7 +159,7 @@ export class CameraRig {
     const away = this.#camera.position.clone().sub(this.#controls.target);
     this.#controls.target.set(...point);
     if (this.#flat) this.#camera.zoom = Math.min(40, (0.8 * this.framing.radius) / radius);
-    else away.setLength(radius / Math.sin(halfAngle));
+    else away.setLength(radius / Math.sin(this.#narrowAngle()));
     this.#camera.position.copy(this.#controls.target).add(away);
     this.#controls.update();
   }
@@ -213,6 +213,12 @@ export class CameraRig {
   dispose(): void {
     this.#canvas.removeEventListener('keydown', this.#press);
     this.#controls.dispose();
+  }
+
+  /** Half of the smaller field of view: in a narrow picture the horizontal one. */
+  #narrowAngle(): number {
+    const aspect = this.#camera instanceof PerspectiveCamera ? this.#camera.aspect : 1;
+    return Math.atan(Math.min(1, aspect) * Math.tan(halfAngle));
   }
 
   /** Corners of the framed box, from its centre, along the axes of the camera. */

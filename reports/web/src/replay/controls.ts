@@ -113,6 +113,7 @@ export class Controls implements ControlActions {
 
   toggleHelp(): void {
     this.#help.hidden = !this.#help.hidden;
+    if (!this.#help.hidden) this.#help.scrollIntoView({ block: 'nearest' });
   }
 
   say(text: string): void {

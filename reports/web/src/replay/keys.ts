@@ -39,7 +39,7 @@ const explained: [string, string][] = [
 export function helpOverlay(): HTMLElement {
   return el(
     'div',
-    { class: 'help', hidden: true, role: 'note' },
+    { class: 'help', hidden: true, role: 'note', tabindex: 0 },
     keyList(explained),
     el(
       'p',

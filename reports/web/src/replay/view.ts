@@ -36,6 +36,7 @@ const idle: WebGLRenderer[] = [];
 
 const stillAfter = 1200; // [ms] since the last drawing
 const mostEdged = 120; // bodies of all pictures that have edges while they move, where the browser draws in software
+const mostOfFinding = 5; // radius of a scene that is shown as a whole, in lengths of the finding's arrows
 const pixelRatio = () => (drawsInSoftware() ? 1 : Math.min(2, devicePixelRatio));
 
 function takeRenderer(): WebGLRenderer {
@@ -194,8 +195,11 @@ export class ReplayView {
     this.invalidate();
   }
 
-  /** Moves the camera to the finding: across its normals, so that the angle between them has its true size. */
-  lookAtFinding(): void {
+  /**
+   * Moves the camera to the finding: across its normals, so that the angle between them has its true size. With `whole` it
+   * shows the whole scene, unless the finding would be small in it.
+   */
+  lookAtFinding(whole = false): void {
     const finding = this.#finding?.finding;
     const at = finding && placeOf(finding);
     if (!finding || !at) return;
@@ -208,7 +212,9 @@ export class ReplayView {
     } else across.copy(away).addScaledVector(exact, -away.dot(exact)).normalize();
     const length = this.#findingLength(finding);
     const middle = new Vector3(...at).addScaledVector(exact, 0.4 * length).toArray() as Vec3;
-    this.#rig.lookFrom(middle, 1.7 * length, across.toArray() as Vec3);
+    const { center, radius } = this.#rig.framing;
+    const isWhole = whole && radius < mostOfFinding * length;
+    this.#rig.lookFrom(isWhole ? center : middle, isWhole ? radius : 1.7 * length, across.toArray() as Vec3);
     this.#fadeOccluders();
     this.invalidate();
   }

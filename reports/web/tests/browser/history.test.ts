@@ -3,12 +3,12 @@
 //
 // The page of `rigor history`: what changed comes first, with its numbers and statistics; filters stand in the address.
 import assert from 'node:assert/strict';
-import { cpSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, test } from 'node:test';
 import type { History } from '../../src/history/data.ts';
 import { caseKey, firstMoment } from '../../src/history/series.ts';
-import { figureOf, makeHistory, makeRunOf, program, reportOf, screenshots, skip, smokeRun } from '../browser.ts';
+import { figureOf, makeHistory, makeRunOf, makeTwoRuns, program, reportOf, screenshots, skip } from '../browser.ts';
 
 function dataOf(folder: string): History {
   const page = readFileSync(join(folder, 'index.html'), 'utf8');
@@ -120,13 +120,7 @@ describe('the history of three runs', { skip }, () => {
 });
 
 describe('two runs with their replays', { skip }, () => {
-  const it = reportOf(() => {
-    const run = smokeRun();
-    const [folder, again] = [join(run, '..', 'two_runs'), join(run, '..', 'smoke_again')];
-    cpSync(run, again, { recursive: true });
-    program('bin/rigor', 'history', run, again, '--out', folder);
-    return folder;
-  });
+  const it = reportOf(makeTwoRuns);
 
   test('show a case of both side by side, by one clock; the address keeps it', async () => {
     await it.open();

@@ -163,11 +163,16 @@ function totalCell(list: Scenario[], column: Column, f: Filters, first: boolean)
   }
   const graded = grades.reduce((sum, n) => sum + n, 0);
   const near = (grades[0] as number) + (grades[1] as number) + (grades[2] as number);
+  const parts = graded ? [`${near} of ${graded}`, '≤ 1e-2'] : [`${ran} ran`]; // lines of a narrow column
   return el(
     'td',
     { class: `total${first ? ' first' : ''}`, 'data-spec': column.spec, 'data-ran': ran },
     gradeBar(grades),
-    el('span', { class: 'small' }, graded ? `${near} of ${graded} ≤ 1e-2` : `${ran} ran`),
+    el(
+      'span',
+      { class: 'small' },
+      parts.map((text) => [el('span', null, text), ' ']),
+    ),
     gone ? el('span', { class: 'small bad' }, ` ${gone} lost`) : null,
   );
 }

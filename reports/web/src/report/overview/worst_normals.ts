@@ -56,19 +56,19 @@ function row(w: Wrong, head: Child): HTMLElement {
     head,
     el(
       'td',
-      { class: 'num', title: `${full(w.error)} rad` },
+      { class: 'num', 'data-label': 'Normal off by', title: `${full(w.error)} rad` },
       el('a', { class: 'frame', href }, angle(w.error)),
       w.place?.what === 'point_normal' ? el('span', { class: 'bound' }, 'one of its points') : null,
     ),
     el(
       'td',
-      { class: 'num', title: `${full(w.distance)} m` },
+      { class: 'num', 'data-label': 'Overlap there', title: `${full(w.distance)} m` },
       Number.isFinite(deep) ? `${format(1e3 * deep, 3)} mm` : '',
     ),
-    el('td', null, w.scenario.title),
-    el('td', null, w.place?.bodies.join(' and ') ?? ''),
-    el('td', null, `${labelOf(w.spec)}, ${timeStep(w.dt)}`),
-    el('td', null, w.place ? `t = ${format(w.place.time)} s` : 'in its contact audit'),
+    el('td', { 'data-label': 'Scene' }, w.scenario.title),
+    el('td', { 'data-label': 'Between' }, w.place?.bodies.join(' and ') ?? ''),
+    el('td', { 'data-label': 'Run' }, `${labelOf(w.spec)}, ${timeStep(w.dt)}`),
+    el('td', { 'data-label': 'Frame' }, w.place ? `t = ${format(w.place.time)} s` : 'in its contact audit'),
   );
 }
 
@@ -104,7 +104,7 @@ export function worstNormals(): Child {
     scroll(
       el(
         'table',
-        { id: 'worst-normals' },
+        { id: 'worst-normals', class: 'stacked' },
         headRow(heads, (i) => i === 1 || i === 2),
         el('tbody', null, rows),
       ),
