@@ -23,11 +23,12 @@ using results::TrajectoryFile;
 constexpr std::size_t kMostNumbers = 2 << 20;  ///< size limit of a response: 16 MiB
 
 /// Types of the files of a report; everything else of the folder (the store, trajectories) stays where it is.
-constexpr std::array<std::pair<const char*, const char*>, 10> kTypes{{
+constexpr std::array<std::pair<const char*, const char*>, 11> kTypes{{
     {".html", "text/html; charset=utf-8"},
     {".js", "text/javascript; charset=utf-8"},
     {".css", "text/css; charset=utf-8"},
     {".svg", "image/svg+xml"},
+    {".pdf", "application/pdf"},
     {".csv", "text/csv; charset=utf-8"},
     {".gz", "application/gzip"},
     {".md", "text/markdown; charset=utf-8"},

@@ -62,6 +62,7 @@ class RunSites : public testing::Test {
         fs::create_directories(run_ / "trajectories");
         write(run_ / "index.html", "<p>report");
         write(run_ / "plots/a.svg", "<svg/>");
+        write(run_ / "plots/a.pdf", "%PDF-");
         write(run_ / "results.sqlite", "store");
         write(run_ / ".hidden.csv", "hidden");
         write(scratch_.path() / "secret.csv", "secret");
@@ -84,6 +85,7 @@ TEST_F(RunSites, FilesOfTheReportAreServed) {
     EXPECT_EQ(get("/index.html").type, "text/html; charset=utf-8");
     EXPECT_EQ(get("/plots/a.svg").body, "<svg/>");
     EXPECT_EQ(get("/plots/a.svg").type, "image/svg+xml");
+    EXPECT_EQ(get("/plots/a.pdf").type, "application/pdf");
 }
 
 TEST_F(RunSites, NothingElseIs) {
