@@ -171,8 +171,7 @@ TEST(Judge, SinglePrecisionIsJudgedByItsRounding) {
     auto far = c;
     far.a.pose.position = {100, 0, 0};
     EXPECT_NEAR(singleTolerance(far, tolerance).touch, 101 * 8 / std::pow(2.0, 23), 1e-12);
-    EXPECT_EQ(singleTolerance(c, {1e-3, 1e-6, 0.1}).touch, 1e-3)
-        << "a wider tolerance of the user stays";
+    EXPECT_EQ(singleTolerance(c, {1e-3, 1e-6, 0.1}).touch, 1e-3) << "a wider tolerance of the user stays";
 }
 
 TEST(Judge, ShapesTheOracleLacksAreJudgedByTheFile) {
