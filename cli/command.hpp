@@ -111,6 +111,9 @@ CLI::Option* offerNames(CLI::Option* option, const char* kind);
 void addEngines(CLI::App& command, std::string& engines, const std::string& help,
                 const std::string& flags = "--engines");
 
+/// Type of options whose texts may be empty, as the word is that a command line ends with before it is begun.
+inline constexpr const char* kMayBeEmpty = "WORD";
+
 /// --reference-limit SECONDS
 void addReferenceLimit(CLI::App& command, validation::ReferenceLimits& limits);
 

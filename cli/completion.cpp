@@ -156,7 +156,8 @@ void addCompletion(CLI::App& app, Action& action) {
     auto words = std::make_shared<Names>();
     auto* command = app.add_subcommand(
         "completion", "Print the completion for bash; with words, what the last of them may be");
-    command->add_option("WORDS", *words, "Words of a command line without 'rigor', after --");
+    command->add_option("WORDS", *words, "Words of a command line without 'rigor', after --")
+        ->type_name(kMayBeEmpty);
     command->callback([&app, words, &action] {
         action = [&app, words] {
             if (!words->empty()) return complete(app, *words);

@@ -103,6 +103,7 @@ void checkNumbers(CLI::App& app) {
 void refuseEmptyTexts(CLI::App& app) {
     forOptions(app, [](CLI::App& command, CLI::Option& option) {
         const CLI::results_t& texts = option.results();
+        if (option.get_type_name() == kMayBeEmpty) return;
         if (option.count() == 0 || std::find(texts.begin(), texts.end(), "") == texts.end()) return;
         throw std::invalid_argument(command.get_name() + ": " + option.get_name() +
                                     ": found '', expected a text that is not empty");

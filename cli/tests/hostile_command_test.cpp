@@ -96,7 +96,7 @@ TEST(HostileCommands, AnEngineThatSleepsIsEndedAfterItsTimeLimit) {
     const std::string sleeper = hostileFile("sleeper.json", "") +
                                 " --engine double_free_flight:pause_us=1000000 --set time_limit=0.1";
     for (const std::string& arguments :
-         {"run " + sleeper + " --reference-limit 0.5", "draw " + sleeper + " --at 0.2 --out /dev/null"}) {
+         {"run " + sleeper + " --reference-limit 0.5", "draw " + sleeper + " --at 0.2 --out -"}) {
         const auto start = std::chrono::steady_clock::now();
         const Result result = rigor(arguments, true, doubles);
         const double seconds =
