@@ -85,17 +85,23 @@ std::string durationLabel(double seconds) {
     return print("%.3g s", seconds);
 }
 
-std::string escapeMarkup(std::string_view text) {
+std::string validText(std::string_view text) {
     std::string out;
     out.reserve(text.size());
     while (!text.empty()) {
         const Utf8Character c = firstCharacter(text);
-        if (c.length == 0 || !allowedInXml(c.point)) {
-            out += "\xEF\xBF\xBD";
-            text.remove_prefix(c.length == 0 ? 1 : c.length);
-            continue;
-        }
-        switch (c.point) {
+        const bool isValid = c.length > 0 && allowedInXml(c.point);
+        out += isValid ? text.substr(0, c.length) : "\xEF\xBF\xBD";
+        text.remove_prefix(std::max<std::size_t>(1, c.length));
+    }
+    return out;
+}
+
+std::string escapeMarkup(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    for (const char c : validText(text)) {
+        switch (c) {
             case '&':
                 out += "&amp;";
                 break;
@@ -121,9 +127,8 @@ std::string escapeMarkup(std::string_view text) {
                 out += "&#9;";
                 break;
             default:
-                out += text.substr(0, c.length);
+                out += c;
         }
-        text.remove_prefix(c.length);
     }
     return out;
 }

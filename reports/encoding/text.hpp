@@ -34,8 +34,10 @@ struct Utf8Character {
 };
 Utf8Character firstCharacter(std::string_view text);
 
-/// Text inside HTML and XML elements and quoted attributes. Characters that XML 1.0 can not hold, and bytes
-/// that are not UTF-8, become U+FFFD.
+/// Text in which characters that XML 1.0 can not hold, and bytes that are not UTF-8, are U+FFFD.
+std::string validText(std::string_view text);
+
+/// Text inside HTML and XML elements and quoted attributes, from validText().
 std::string escapeMarkup(std::string_view text);
 
 /// An RFC 4180 field: quoted when it holds a comma, a quote or a line break.

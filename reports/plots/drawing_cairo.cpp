@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "reports/encoding/text.hpp"
 #include "reports/plots/drawing.hpp"
 
 namespace rigor::report {
@@ -60,17 +61,18 @@ void paint(cairo_t* pen, const DrawnPath& path) {
 }
 
 void paint(cairo_t* pen, const DrawnText& text) {
+    const std::string shown = validText(text.text);  // cairo refuses other bytes
     cairo_save(pen);
     setColour(pen, kTextColour);
     cairo_select_font_face(pen, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                            text.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(pen, text.size);
     cairo_text_extents_t extents;
-    cairo_text_extents(pen, text.text.c_str(), &extents);
+    cairo_text_extents(pen, shown.c_str(), &extents);
     cairo_translate(pen, text.x, text.y);
     if (text.upward) cairo_rotate(pen, -0.5 * std::numbers::pi);
     cairo_move_to(pen, -0.5 * static_cast<int>(text.anchor) * extents.x_advance, 0.0);
-    cairo_show_text(pen, text.text.c_str());
+    cairo_show_text(pen, shown.c_str());
     cairo_restore(pen);
 }
 

@@ -54,6 +54,13 @@ TEST(Drawing, GivesTheSamePdfAtAnyTime) {
     EXPECT_EQ(pdfOf(drawingOfAllPrimitives()), pdf);
 }
 
+/// Texts of a damaged store are drawn like those of the page, with U+FFFD.
+TEST(Drawing, ShowsBytesThatAreNoText) {
+    const auto drawn = [](const std::string& text) { return Drawing{100, 50, {DrawnText{5, 20, text}}}; };
+    EXPECT_EQ(pdfOf(drawn("a\xff\x01z")), pdfOf(drawn("a\xEF\xBF\xBD\xEF\xBF\xBDz")));
+    EXPECT_EQ(svgOf(drawn("a\xff\x01z")), svgOf(drawn("a\xEF\xBF\xBD\xEF\xBF\xBDz")));
+}
+
 TEST(Drawing, IsRefusedWhereCairoCanNotHoldIt) {
     EXPECT_TRUE(pngOf(drawingOfAllPrimitives()).starts_with("\x89PNG"));
     EXPECT_THROW(pngOf({1e6, 1e6, {}}), std::invalid_argument);
