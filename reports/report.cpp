@@ -184,18 +184,19 @@ class ReportFolder {
     /// A large run has its plots in SVG alone, and the tables of its scenarios in CSV alone, neither in Markdown nor in
     /// LaTeX.
     bool isLarge(const results::Run& run) const { return run.cases.size() > limits_.cases; }
-    static std::vector<const char*> tableEndings(bool csvAlone) {
-        return csvAlone ? std::vector{".csv"} : std::vector{".csv", ".md", ".tex"};
-    }
-    void writeTable(const Table& table, bool csvAlone) {
+    /// The names of the files.
+    std::vector<std::string> writeTable(const Table& table, bool csvAlone) {
         const std::string name = (fs::path("tables") / table.name).string();
-        const bool isLarge = table.rows.size() > limits_.tableRows;
         for (const char* ending : {".csv", ".md", ".tex", ".csv.gz"}) remove(name + ending);
-        if (isLarge) return write(name + ".csv.gz", gzip(tableCsv(table)));
+        if (table.rows.size() > limits_.tableRows) {
+            write(name + ".csv.gz", gzip(tableCsv(table)));
+            return {name + ".csv.gz"};
+        }
         write(name + ".csv", tableCsv(table));
-        if (csvAlone) return;
+        if (csvAlone) return {name + ".csv"};
         write(name + ".md", tableMarkdown(table));
         write(name + ".tex", tableLatex(table));
+        return {name + ".csv", name + ".md", name + ".tex"};
     }
 
     /// The same folder, into which nothing has been written.
@@ -212,22 +213,31 @@ class ReportFolder {
     ReportLimits limits_;
 };
 
-/// Details and curves of a scenario, and its plot over time.
+using TableFiles = std::map<std::string, std::vector<std::string>>;  ///< names of files by table
+
+TableFiles writeTables(const ViewModel& view, ReportFolder& folder) {
+    TableFiles files;
+    for (const auto& entry : tableEntries())
+        for (const auto& table : entry.make(view))
+            files[table.name] = folder.writeTable(table, table.ofScenario && folder.isLarge(view.run()));
+    return files;
+}
+
+/// Details and curves of a scenario, and its plot over time. `files`: those of its table.
 ReportFolder writeScenario(const ViewModel& view, std::size_t scenario, TrajectoriesOfScenario& trajectories,
-                           ReportFolder folder) {
+                           std::vector<std::string> files, ReportFolder folder) {
     const TrajectoryLoader load = [&](const results::CaseRow& row) { return trajectories.load(row, false); };
-    std::vector<std::string> files;
-    const bool isLarge = folder.isLarge(view.run());
-    if (const auto plot = scenarioPlot(view, scenario, load)) files = folder.writePlot(*plot, !isLarge);
-    for (const char* ending : folder.tableEndings(isLarge))
-        files.push_back("tables/" + scenarioTableName(view.run().scenarios[scenario]) + ending);
+    if (const auto plot = scenarioPlot(view, scenario, load))
+        for (auto& file : folder.writePlot(*plot, !folder.isLarge(view.run())))
+            files.push_back(std::move(file));
     folder.writeData("scenario-" + std::to_string(scenario), scenarioJson(view, scenario, load, files));
     return folder;
 }
 
 /// Writes what trajectories give: details, curves and plots of scenarios, beside the replays, which have a budget
 /// together and are made in order.
-void writeScenarios(const ViewModel& view, Trajectories& trajectories, ReportFolder& folder) {
+void writeScenarios(const ViewModel& view, TableFiles tables, Trajectories& trajectories,
+                    ReportFolder& folder) {
     constexpr std::size_t kMostInWork = 4;
     const ReportFolder empty = folder.withoutFiles();
     std::deque<std::future<ReportFolder>> inWork;
@@ -240,8 +250,11 @@ void writeScenarios(const ViewModel& view, Trajectories& trajectories, ReportFol
     for (std::size_t i = 0; i < view.run().scenarios.size(); ++i) {
         if (inWork.size() == kMostInWork) finishOldest();
         const auto own = std::make_shared<TrajectoriesOfScenario>(trajectories);
-        inWork.push_back(std::async(std::launch::async,
-                                    [&view, &empty, own, i] { return writeScenario(view, i, *own, empty); }));
+        inWork.push_back(
+            std::async(std::launch::async,
+                       [&view, &empty, own, i, files = tables[scenarioTableName(view.run().scenarios[i])]] {
+                           return writeScenario(view, i, *own, files, empty);
+                       }));
         replayFiles(
             view, i, [&](const results::CaseRow& row) { return own->load(row, true); }, budget,
             [&](const std::string& name, const std::string& content) { folder.writeData(name, content); });
@@ -271,17 +284,14 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory, std::vector<std
             folder.writeData("cases-" + std::to_string(i), casesJson(view, i));
     if (areBeside) folder.writeData("lists", listsJson(view));
     fs::create_directories(runDirectory / "plots");
-    writeScenarios(view, trajectories, folder);
+    fs::create_directories(runDirectory / "tables" / "scenarios");
+    writeScenarios(view, writeTables(view, folder), trajectories, folder);
     trajectories.checkOthers();
     folder.write("summary.md", markdownSummary(view) + problemsMarkdown(trajectories.problems()));
     for (const auto& plot : refinementPlots(view)) folder.writePlot(plot, !folder.isLarge(shown));
     if (study)
         for (const auto& plot : studyPlots(*study)) folder.writePlot(plot, !folder.isLarge(shown));
     if (fs::is_empty(runDirectory / "plots")) fs::remove(runDirectory / "plots");
-    fs::create_directories(runDirectory / "tables" / "scenarios");
-    for (const auto& entry : tableEntries())
-        for (const auto& table : entry.make(view))
-            folder.writeTable(table, table.ofScenario && folder.isLarge(shown));
     if (problems != nullptr) problems->assign(trajectories.problems().begin(), trajectories.problems().end());
     return folder.written;
 }

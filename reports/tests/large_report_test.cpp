@@ -61,6 +61,28 @@ TEST(GzipText, IsTheSumOfItsPieces) {
     EXPECT_EQ(uncompressed(gzip(whole)), whole);
 }
 
+std::string bytesOfBase64(std::string_view text) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    unsigned bits = 0;
+    int count = 0;
+    for (const char c : text.substr(0, text.find('='))) {
+        bits = bits << 6 | static_cast<unsigned>(kDigits.find(c));
+        count += 6;
+        if (count < 8) continue;
+        count -= 8;
+        bytes += static_cast<char>(bits >> count & 0xFF);
+    }
+    return bytes;
+}
+
+/// The files that the data of a scenario name: rigorData("scenario-0","BASE64");
+std::vector<std::string> filesOfScenario(const std::string& script) {
+    const std::size_t end = script.rfind('"'), begin = script.rfind('"', end - 1) + 1;
+    const std::string data = uncompressed(bytesOfBase64(std::string_view(script).substr(begin, end - begin)));
+    return nlohmann::json::parse(data).at("files");
+}
+
 class LargeReport : public testing::Test {
   protected:
     LargeReport() {
@@ -101,6 +123,24 @@ TEST_F(LargeReport, HoldsTheSameTextsCompressed) {
     writeReports(folder_, nullptr, {.cases = run_.cases.size(), .tableRows = 5});
     EXPECT_EQ(textOf("results.csv"), csv);
     EXPECT_FALSE(has("results.csv.gz"));
+}
+
+/// The page of a scenario names the files that its table and its plot have, whatever the limits make of them.
+TEST_F(LargeReport, NamesTheFilesOfATableThatAreThere) {
+    const std::string table = "tables/" + scenarioTableName(run_.scenarios.front());
+    const auto named = [&](const ReportLimits& limits) {
+        writeReports(folder_, nullptr, limits);
+        std::vector<std::string> files;
+        for (const std::string& file : filesOfScenario(textOf("data/scenario-0.js"))) {
+            EXPECT_TRUE(has(file.c_str())) << file;
+            if (file.starts_with("tables/")) files.push_back(file);
+        }
+        return files;
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(named({}), (Names{table + ".csv", table + ".md", table + ".tex"}));
+    EXPECT_EQ(named({.cases = run_.cases.size() - 1}), Names{table + ".csv"});
+    EXPECT_EQ(named({.tableRows = 1}), Names{table + ".csv.gz"});
 }
 
 TEST_F(LargeReport, HasItsCasesBesideThePage) {

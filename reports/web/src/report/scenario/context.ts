@@ -64,7 +64,14 @@ export function moment(
 export function fileLinks({ data }: Context, folder: 'tables' | 'plots', what: string): HTMLElement | null {
   const files = run.single ? [] : (data.files ?? []).filter((file) => file.startsWith(`${folder}/`));
   if (files.length === 0) return null;
-  const formats: Record<string, string> = { csv: 'CSV', md: 'Markdown', tex: 'LaTeX', svg: 'SVG', pdf: 'PDF' };
+  const formats: Record<string, string> = {
+    csv: 'CSV',
+    md: 'Markdown',
+    tex: 'LaTeX',
+    gz: 'CSV (gzip)',
+    svg: 'SVG',
+    pdf: 'PDF',
+  };
   const ending = (file: string) => file.slice(file.lastIndexOf('.') + 1);
   const link = (file: string, i: number) => [i ? ' · ' : '', el('a', { href: file }, formats[ending(file)] ?? file)];
   return el('p', { class: 'small noprint', 'data-files': folder }, `${what}: `, files.map(link));
