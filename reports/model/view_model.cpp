@@ -17,6 +17,11 @@
 namespace rigor::report {
 namespace {
 
+using results::CaseRow;
+using results::MetricRow;
+using results::Run;
+using results::Verdict;
+
 /// Error up to which engines count as equal in a scenario.
 double negligibleOf(const results::ScenarioRow& scenario) {
     const double least = results::gradeLimit(results::Grade::A);
@@ -26,11 +31,6 @@ double negligibleOf(const results::ScenarioRow& scenario) {
     const Json value = file.value(Json::json_pointer("/negligible_error/value"), Json());
     return value.is_number() ? std::max(least, value.get<double>()) : least;
 }
-
-using results::CaseRow;
-using results::MetricRow;
-using results::Run;
-using results::Verdict;
 
 SpecColumn describe(const CaseRow& row) {
     SpecColumn column{row.spec, row.engine, row.preset, "", "", "", {}};

@@ -8,6 +8,7 @@
 
 #include "scenarios/model/surfaces.hpp"
 #include "validation/metrics/closed_forms.hpp"
+#include "validation/metrics/metric_parts.hpp"
 #include "validation/oracle/oracle.hpp"
 #include "validation/results/trajectory_file.hpp"
 #include "validation/runner/audit.hpp"
@@ -142,8 +143,8 @@ std::optional<std::size_t> worstNormalFrame(const Scenario& s, const results::Tr
             closedFormPair(a.geometry, bodyPose(file, frame, contact.bodyA) * a.pose, b.geometry,
                            bodyPose(file, frame, contact.bodyB) * b.pose, s.dimension);
         if (!exact) continue;
-        const Vec3 said{contact.normal[0], contact.normal[1], contact.normal[2]};
-        const double angle = std::atan2(norm(cross(said, exact->normal)), dot(said, exact->normal));
+        const double angle =
+            angleBetween({contact.normal[0], contact.normal[1], contact.normal[2]}, exact->normal);
         if (!(angle > worst)) continue;
         worst = angle;
         found = frame;

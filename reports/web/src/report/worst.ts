@@ -48,6 +48,12 @@ export const placeOfNormal = ({ what, pair, time, step, contact }: WrongNormal):
   spec: '',
 });
 
+/** Place of a run's worst result where that is a normal; null where it is another one. */
+export function worstNormalPlace(text: string): Place | null {
+  const place = worstPlace(text);
+  return place?.what === 'normal' ? place : null;
+}
+
 /** Key of the finding at the place; null where it is of no kind that can be drawn. */
 export const findingAt = (place: Place | null, auditor: string): string | null =>
   place === null || !drawn.has(place.what) ? null : findingKey(auditor, place.what as ContactFinding['what']);

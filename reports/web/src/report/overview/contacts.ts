@@ -7,7 +7,7 @@ import { angle, format, full, type Maybe, toNumber } from '../../common/format.t
 import type { Audit, Column, InRun, Scenario } from '../data.ts';
 import { run, scenarioLink } from '../run.ts';
 import { chip, headRow, panel, scroll, specHead, stickyHead } from '../widgets.ts';
-import { placeOfNormal, placeQuery, worstPlace } from '../worst.ts';
+import { placeOfNormal, placeQuery, worstNormalPlace, worstPlace } from '../worst.ts';
 import { worstNormals } from './worst_normals.ts';
 
 const scenarioHead = (name: string) =>
@@ -24,8 +24,7 @@ function worstOf(values: Maybe[]): Maybe {
 function normalLink(s: Scenario, column: Column, cases: Scenario['cases'], normal: Maybe): Child {
   const at = cases.find((c) => c.inRun?.normal === normal);
   const found = at?.inRun?.normals?.find((n) => n.what === 'normal');
-  const old = worstPlace(at?.inRun?.worst ?? '');
-  const place = found ? placeOfNormal(found) : old?.what === 'normal' ? old : null;
+  const place = found ? placeOfNormal(found) : worstNormalPlace(at?.inRun?.worst ?? '');
   if (!at || !place) return angle(normal);
   const href = scenarioLink(s.name, { spec: column.spec, ...placeQuery(place, at.dt) });
   return el('a', { href, title: 'Show this frame' }, angle(normal));
@@ -53,9 +52,10 @@ function inRunCell(s: Scenario, column: Column): HTMLElement {
       .filter(Boolean)
       .join('; ');
   const normal = worst('normal');
-  // The place of a run's worst is that of a missed or invented overlap where it has one, else that of the worst normal.
-  const linkTo = (of: (a: InRun, what: string) => boolean, text: Child): Child => {
-    const at = cases.find((c) => c.inRun && of(c.inRun, worstPlace(c.inRun.worst)?.what ?? ''));
+  // The place of a run's worst is that of a missed or invented overlap where it has one.
+  const wrongLink = (text: Child): Child => {
+    const isWrong = (a: InRun | null) => a && a.missed + a.spurious > 0 && worstPlace(a.worst)?.what !== 'normal';
+    const at = cases.find((c) => isWrong(c.inRun));
     if (!at) return text;
     const href = scenarioLink(s.name, { spec: column.spec, ...placeQuery(worstPlace(at.inRun?.worst ?? ''), at.dt) });
     return el('a', { href, title: 'Show this frame' }, text);
@@ -63,7 +63,7 @@ function inRunCell(s: Scenario, column: Column): HTMLElement {
   return el(
     'td',
     { class: 'num', 'data-wrong': wrong, title },
-    wrong ? linkTo((a, what) => a.missed + a.spurious > 0 && what !== 'normal', chip('fail', `${wrong} wrong`)) : null,
+    wrong ? wrongLink(chip('fail', `${wrong} wrong`)) : null,
     normalLink(s, column, cases, normal),
     el('span', { class: 'bound' }, worst('depth') === null ? '' : `${format(worst('depth'))} m`),
     flicker > 0.01 ? el('span', { class: 'bound' }, `${(100 * flicker).toPrecision(2)} % blink`) : null,

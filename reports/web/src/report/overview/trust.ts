@@ -73,8 +73,8 @@ function answer(m: Mechanism): Child {
 
 /** "In none of these: box2d (2D only)": engines that the table leaves out; null where it has all. */
 function absentText(list: Placed[]): Child {
-  const placedEngines = new Set(list.map((s) => s.column.engine));
-  const absent = [...new Set(run.columns.map((c) => c.engine))].filter((name) => !placedEngines.has(name));
+  const present = new Set(list.map((s) => s.column.engine));
+  const absent = [...new Set(run.columns.map((c) => c.engine))].filter((name) => !present.has(name));
   if (absent.length === 0) return null;
   const names = absent.map((name) => name + (dimensionNote(name) ? ` (${dimensionNote(name)})` : ''));
   return el('p', { class: 'muted small', 'data-absent': absent.join(' ') }, `In none of these: ${names.join(', ')}.`);

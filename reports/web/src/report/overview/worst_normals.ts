@@ -8,7 +8,7 @@ import { angle, format, full, type Maybe, timeStep, toNumber } from '../../commo
 import type { Scenario, WrongNormal } from '../data.ts';
 import { engineLink, labelOf, run, scenarioLink } from '../run.ts';
 import { headRow, metricName, scroll } from '../widgets.ts';
-import { type Place, placeOfNormal, placeQuery, worstPlace } from '../worst.ts';
+import { type Place, placeOfNormal, placeQuery, worstNormalPlace } from '../worst.ts';
 
 const perEngine = 3;
 const noticeable = 1e-4; // [rad], 0.006 degrees: less is rounding
@@ -32,8 +32,7 @@ function worstOf(scenario: Scenario, c: Scenario['cases'][number]): Wrong | null
     null,
   );
   if (found) return { ...at, error: found.error, place: placeOfNormal(found), distance: found.distance };
-  const place = worstPlace(worst);
-  return { ...at, error: normal, place: place?.what === 'normal' ? place : null, distance: null };
+  return { ...at, error: normal, place: worstNormalPlace(worst), distance: null };
 }
 
 /** The worst first, one scenario a line, so that one bad scene does not hide the others. */

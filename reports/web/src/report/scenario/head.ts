@@ -13,22 +13,23 @@ import { saveSingleFile } from './single_file.ts';
 
 const tags = (names: string[]) => names.map((t) => el('span', { class: 'tag' }, t));
 
-function prettyText(text: string): string {
+/** The scenario file; null for a text that is none, which is shown as it is stored. */
+function parsed(text: string): Record<string, unknown> | null {
   try {
-    return JSON.stringify(JSON.parse(text), null, 2);
+    return JSON.parse(text);
   } catch {
-    return text; // shown as it is stored
+    return null;
   }
+}
+
+function prettyText(text: string): string {
+  const file = parsed(text);
+  return file === null ? text : JSON.stringify(file, null, 2);
 }
 
 /** "relative errors up to 1e-4: reason"; "" where the scenario names none. */
 function negligibleText(text: string): string {
-  let negligible: { value?: number; reason?: string } | undefined;
-  try {
-    negligible = JSON.parse(text).negligible_error;
-  } catch {
-    return ''; // shown as it is stored, below
-  }
+  const negligible = parsed(text)?.negligible_error as { value?: number; reason?: string } | undefined;
   return negligible ? `relative errors up to ${negligible.value} count as equal: ${negligible.reason}` : '';
 }
 
