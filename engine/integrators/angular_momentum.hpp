@@ -8,13 +8,25 @@
 
 namespace rigor::engine {
 
-/// v turned by q, or by its inverse, at its own length also where |q|^2 is 1 + eps: normalising leaves such a
+/// Turns vectors by q and its inverse, at their own length also where |q|^2 is 1 + eps: normalising leaves such a
 /// bias (about 1e-16 in f64), which rotate() passes on to the length and a million steps would add up.
 template <class R>
-Eigen::Matrix<R, 3, 1> turnedAtLength(const Eigen::Quaternion<R>& q, const Eigen::Matrix<R, 3, 1>& v) {
-    const Eigen::Matrix<R, 3, 1> u = q.vec(), t = u.cross(v);
-    return v + (R(2) / q.squaredNorm()) * (q.w() * t + u.cross(t));
-}
+struct TurnAtLength {
+    using Vec = Eigen::Matrix<R, 3, 1>;
+    Vec u;
+    R w, twice;
+
+    explicit TurnAtLength(const Eigen::Quaternion<R>& q)
+        : u(q.vec()), w(q.w()), twice(R(2) / q.squaredNorm()) {}
+    Vec turn(const Vec& v) const {
+        const Vec t = u.cross(v);
+        return v + twice * (w * t + u.cross(t));
+    }
+    Vec turnBack(const Vec& v) const {
+        const Vec t = u.cross(v);
+        return v + twice * (u.cross(t) - w * t);
+    }
+};
 
 /// RotationScheme::finish: what the constraints changed is added to the angular momentum L of the start, and
 /// the end velocity is I(q1)^-1 L.
@@ -33,16 +45,17 @@ typename S::Ang keepAngularMomentum(const BodyConstants<S>& body, const typename
         using Vec = typename S::Vec;
         using Real = typename S::Real;
         // L = I(q0) (w + what the constraints changed)
-        const Vec kept = turnedAtLength<Real>(q0.conjugate(), w + (solved - predicted));
+        const TurnAtLength<Real> start(q0), end(q1);
+        const Vec kept = start.turnBack(w + (solved - predicted));
         const Vec Pi = body.inertia * kept;
         if (turnsAboutItself<Real>(kept, Pi)) return w + (solved - predicted);
-        const Vec L = turnedAtLength<Real>(q0, Pi);
+        const Vec L = start.turn(Pi);
         // One refinement: the rounding of the inverse is the same in every step and would add up.
         const auto inverse = inverseInertia<S>(body.inertia);
-        const Vec Pi1 = turnedAtLength<Real>(q1.conjugate(), L);
+        const Vec Pi1 = end.turnBack(L);
         Vec local = inverse * Pi1;
         local += inverse * Vec(Pi1 - body.inertia * local);
-        return turnedAtLength<Real>(q1, local);
+        return end.turn(local);
     }
 }
 

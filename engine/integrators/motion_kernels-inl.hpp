@@ -47,6 +47,32 @@ HWY_INLINE void cosSinc(V x2, V& cosine, V& sinc) {
     }
 }
 
+/// cosSincOfAny() of rotation_lie_midpoint.cpp.
+template <class V>
+HWY_INLINE void cosSincOfAny(V x2, V& cosine, V& sinc) {
+    const V limit = constant<V>(1.0 / 16), quarter = constant<V>(0.25), one = constant<V>(1),
+            zero = constant<V>(0);
+    const hn::DFromV<V> d;
+    V halvings = zero;
+    constexpr int kMost = 64;
+    for (int i = 0; i < kMost; ++i) {
+        const auto large = x2 > limit;
+        if (HWY_LIKELY(hn::AllFalse(d, large))) break;
+        x2 = hn::IfThenElse(large, x2 * quarter, x2);
+        halvings = hn::IfThenElse(large, halvings + one, halvings);
+    }
+    const auto counted = x2 <= limit;
+    x2 = hn::IfThenElseZero(counted, x2);
+    halvings = hn::IfThenElseZero(counted, halvings);
+    cosSinc(x2, cosine, sinc);
+    for (int i = 0; i < kMost; ++i) {
+        const auto left = halvings > constant<V>(i);
+        if (HWY_LIKELY(hn::AllFalse(d, left))) break;
+        sinc = hn::IfThenElse(left, sinc * cosine, sinc);
+        cosine = hn::IfThenElse(left, constant<V>(2) * cosine * cosine - one, cosine);
+    }
+}
+
 /// Cosine and sine (of the angle of each lane, or of half of it times the axis): the angle is halved until
 /// the polynomials hold, then the rotation squared as often.
 template <std::size_t n, class V>
@@ -133,36 +159,57 @@ HWY_INLINE Vec3<V> solve3(const Vec3<V>& a0, const Vec3<V>& a1, const Vec3<V>& a
     return {dot(b, a12) * scale, dot(moment(a2, a0), b) * scale, dot(moment(a0, a1), b) * scale};
 }
 
+/// a + s b
+template <class V>
+HWY_INLINE Vec3<V> plus(const Vec3<V>& a, const V& s, const Vec3<V>& b) {
+    return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
+}
+
+/// One of Newton's steps of LieMidpoint::turn: from W to W - step; half is h/2.
+template <class V>
+HWY_INLINE Vec3<V> newtonStep(const std::array<V, 6>& I, const Vec3<V>& momentum, const Vec3<V>& W, V half) {
+    const V zero = constant<V>(0);
+    const V x2 = half * half * dot(W, W);
+    V c, sinc;
+    cosSincOfAny(x2, c, sinc);
+    const V s = half * sinc;
+    const Vec3<V> Pi = times(I, W), change = minus(Pi, momentum), across = moment(W, Pi);
+    const Vec3<V> none{zero, zero, zero}, f = plus(plus(none, c, change), s, across);
+    const V third = half * (constant<V>(1.0 / 3) - x2 * constant<V>(1.0 / 30));
+    const Vec3<V> slope =
+        plus(plus(none, zero - half * half * sinc, change), zero - half * half * third, across);
+    // Column k of c I + s ([W]x I - [Pi]x) + slope W^T; `turned` is that of -[Pi]x.
+    const auto column = [&](const Vec3<V>& inertia, const Vec3<V>& turned, const V& speed) {
+        return plus(plus(plus(none, c, inertia), s, plus(moment(W, inertia), constant<V>(1), turned)), speed,
+                    slope);
+    };
+    return solve3(column({I[0], I[1], I[2]}, {zero, zero - Pi[2], Pi[1]}, W[0]),
+                  column({I[1], I[3], I[4]}, {Pi[2], zero, zero - Pi[0]}, W[1]),
+                  column({I[2], I[4], I[5]}, {zero - Pi[1], Pi[0], zero}, W[2]), f);
+}
+
 /// LieMidpoint::turn: from the angular velocity w to the one that moves the body, body axes. Lanes end when
 /// they have converged.
 template <class V>
 HWY_INLINE Vec3<V> freeTurn(const std::array<V, 6>& I, const Vec3<V>& w, V h) {
     using R = hn::TFromV<V>;
     const hn::DFromV<V> d;
-    const V zero = constant<V>(0), half = constant<V>(0.5),
-            eps = constant<V>(std::numeric_limits<R>::epsilon());
     const Vec3<V> momentum = times(I, w);
+    const V enough = constant<V>(1e-2 * std::numeric_limits<R>::epsilon()), half = constant<V>(0.5) * h;
     Vec3<V> W = w;
     auto going = hn::Not(turnsAboutItself(w, momentum));
     V last = constant<V>(std::numeric_limits<R>::max());
     constexpr int kMaxNewton = 30;
     for (int i = 0; i < kMaxNewton && !hn::AllFalse(d, going); ++i) {
-        const V back = zero - h;
-        const Vec3<V> end = rotate(expMap(Vec3<V>{back * W[0], back * W[1], back * W[2]}), momentum);
-        Vec3<V> f = times(I, W);
-        for (std::size_t k = 0; k < 3; ++k) f[k] = f[k] - half * (momentum[k] + end[k]);
-        const V s = half * h;
-        const Vec3<V> c{s * end[0], s * end[1], s * end[2]};
-        // The columns of I - [c]x.
-        const Vec3<V> step =
-            solve3(Vec3<V>{I[0], I[1] - c[2], I[2] + c[1]}, Vec3<V>{I[1] + c[2], I[3], I[4] - c[0]},
-                   Vec3<V>{I[2] - c[1], I[4] + c[0], I[5]}, f);
+        const Vec3<V> step = newtonStep(I, momentum, W, half);
         const V size = dot(step, step);
         going = hn::And(going, size < last);
         last = size;
         for (std::size_t k = 0; k < 3; ++k) W[k] = hn::IfThenElse(going, W[k] - step[k], W[k]);
-        going = hn::And(going, size > eps * eps * dot(W, W));
+        going = hn::And(going, size > enough * dot(W, W));
     }
+    const auto none = dot(W, times(I, W)) > constant<V>(1.01) * dot(w, momentum);
+    for (std::size_t k = 0; k < 3; ++k) W[k] = hn::IfThenElse(none, w[k], W[k]);
     return W;
 }
 

@@ -23,7 +23,8 @@ Eigen::Matrix<R, 3, 3> skew(const Eigen::Matrix<R, 3, 1>& a) {
 /// axis): the velocity stays, nothing is to be solved, and no rounding added.
 template <class R>
 bool turnsAboutItself(const Eigen::Matrix<R, 3, 1>& w, const Eigen::Matrix<R, 3, 1>& Pi) {
-    return w.cross(Pi).norm() <= R(4) * std::numeric_limits<R>::epsilon() * w.norm() * Pi.norm();
+    constexpr R bound = R(4) * std::numeric_limits<R>::epsilon();
+    return w.cross(Pi).squaredNorm() <= bound * bound * (w.squaredNorm() * Pi.squaredNorm());
 }
 
 /// RotationScheme::predict by a law of free rotation
