@@ -249,7 +249,7 @@ bool findFacePair(const BoxAxes<R>& boxes, const PolytopeAxis<R>& axis, Manifold
         memory.featureA = static_cast<std::uint32_t>(axis.featureA);
         memory.featureB = static_cast<std::uint32_t>(axis.featureB);
         // An edge that lies along a face touches it in an interval, as two faces do in a polygon.
-        if (std::max(facingA, facingB) < kFlat<R>) return false;
+        if (std::max(facingA, facingB) < kFlatFaces<R>) return false;
         m.refIsA = facingA >= facingB;
     } else {
         const bool same = memory.axis == kind &&

@@ -12,10 +12,14 @@ namespace rigor::engine {
 /// Faces with more vertices are thinned out evenly for clipping.
 inline constexpr int kFaceVertices = 64;
 inline constexpr int kRefSide = 1 << 16;  ///< line numbers from here on are sides of the reference prism
-/// Cosine of the largest angle at which two faces (through n), or a face and a cap or core axis, count as flat against
-/// each other: 2.5 degrees.
+/// Cosine of the largest angle at which a face and a cap or core axis count as flat against each other: 2.5 degrees.
 template <class R>
 inline constexpr R kFlat = R(0.999);
+/// The same for the normal of two edges and the nearer of the two faces that meet along it: 26 degrees. Beyond it
+/// crossing edges touch in a point; within it an overlap is a region between two faces, which one point would let turn
+/// and sink further in.
+template <class R>
+inline constexpr R kFlatFaces = R(0.9);
 
 template <class R>
 struct FaceLoop {

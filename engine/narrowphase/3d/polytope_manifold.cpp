@@ -5,9 +5,9 @@
 // reference face sweeps along n (Sutherland-Hodgman), with separations measured along n, reduced to four
 // points; or the closest points of two crossing edges.
 //
-// Deviation: an edge axis whose two best faces are nearly flat against each other clips faces as well, along
-// the exact edge normal. A stack that rocks by microradians then keeps its four points, and the depth and
-// normal stay exact. Every vertex of the clipped polygon remembers the two lines it lies on (edges of the
+// Deviation: an edge axis along which two faces meet at less than 26 degrees clips the faces as well, along the
+// exact edge normal. A stack that rocks then keeps its four points, boxes that fell into each other are parted
+// over the whole of their overlap, and the depth and normal stay exact. Every vertex of the clipped polygon remembers the two lines it lies on (edges of the
 // incident face, sides of the reference prism); they name its feature, the same whichever face is reference.
 #include "engine/narrowphase/3d/clip.hpp"
 
@@ -102,7 +102,7 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
         // An edge that lies along a face touches it in an interval, as two faces do in a polygon.
         const R facingA = a.faces[faceA].normal.dot(axis.normal),
                 facingB = -b.faces[faceB].normal.dot(towardsB);
-        if (std::max(facingA, facingB) < kFlat<R>) {
+        if (std::max(facingA, facingB) < kFlatFaces<R>) {
             edgePoint(a, b, X, axis, out);
             return;
         }

@@ -76,6 +76,46 @@ TYPED_TEST(EdgeOnFace, HasTheEndsOfTheEdge) {
                     }
 }
 
+/// Two cubes of 0.5 m that fell 0.14 m into each other, turned by 8 degrees against each other, so that two edges make
+/// the axis of least overlap: the points span the overlap. With one point they turn about it and sink further in.
+TYPED_TEST(EdgeOnFace, OverlapAlongAnEdgeAxisHasTheCornersOfItsRegion) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    using Vec = typename S::Vec;
+    const Vec half = Vec::Constant(R(0.25));
+    Pose<S> X, Y;
+    X.q = typename S::Rot(R(0.99849928), R(0.02682913), R(0.04751544), R(-0.00465545));
+    Y.q = typename S::Rot(R(0.99680416), R(-0.01653697), R(0.03901638), R(0.06771793));
+    Y.p = Vec(R(0.006), R(0.36), R(-0.046));
+    const auto outside = [&](const Pose<S>& pose, const Vec& x) {
+        return (Vec(pose.q.conjugate() * (x - pose.p)).cwiseAbs() - half).maxCoeff();
+    };
+    for (const bool hull : {false, true})
+        for (const bool swapped : {false, true}) {
+            SCOPED_TRACE(testing::Message() << (hull ? "hull" : "box") << (swapped ? " swapped" : ""));
+            const Shape<S> cube = hull ? hullOfBox<S>(half) : Shape<S>(Box<S>{half});
+            const Pose<S>&first = swapped ? Y : X, &second = swapped ? X : Y;
+            Manifold<S> m;
+            findNarrowPhase<S>("sat")(cube, first, cube, second, R(1e-3), m);
+            EXPECT_EQ(m.memory.axis, ManifoldMemory<S>::kEdges);
+            ASSERT_EQ(m.count, 4);
+            R least = 0, span = 0;
+            for (const ManifoldPoint<S>& x : m.points) {
+                EXPECT_LT(x.separation, R(-0.05));
+                EXPECT_LT(outside(first, x.pointA), 1e-5);
+                EXPECT_LT(outside(second, x.pointB), 1e-5);
+                EXPECT_NEAR((x.pointB - x.pointA).dot(m.normal), x.separation, 1e-5);
+                least = std::min(least, x.separation);
+                span = std::max(span, (x.pointA - m.points[0].pointA).norm());
+            }
+            EXPECT_GT(span, 0.6);
+            Manifold<S> exact;
+            findNarrowPhase<S>("gjk_epa")(cube, first, cube, second, R(1e-3), exact);
+            EXPECT_NEAR(least, exact.points[0].separation, 1e-4);
+            EXPECT_GT(m.normal.dot(exact.normal), 0.9999);
+        }
+}
+
 /// Boxes that nearly lie on each other: as many points by either narrow phase.
 TYPED_TEST(EdgeOnFace, AsManyPointsByAxesAsByDistance) {
     using S = TypeParam;
