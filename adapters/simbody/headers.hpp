@@ -3,7 +3,13 @@
 //
 // Simbody's headers for C++20. Simbody 3.7 compares its index types by member functions that take integers; C++20 looks at
 // the reversed order too and finds each comparison of two indices ambiguous. Every index type gets a comparison of its own.
+//
+// Debian's library is built with its checks, and classes of its headers have members that are only there with them
+// (SimTKcommon/internal/StateImpl.h): what includes these headers must be built so as well.
 #pragma once
+
+#undef NDEBUG
+#include <cassert>
 
 #include <SimTKcommon/internal/common.h>
 

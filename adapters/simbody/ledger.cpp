@@ -35,13 +35,18 @@ std::vector<LedgerEntry> SimbodyWorld::ledger() const {
             std::to_string(model_->loops.size()) + " joints as constraints, projected to " +
                 text("constraint_tolerance") + (is("projection", "every_step") ? " after every step" : ""));
     if (!model_->motors.empty())
-        add("motors", "speed and largest force", "one bounded force per step and motor",
-            "the force is that which leads to the speed by the end of the step");
+        add("motors", "speed and largest force",
+            "a constant speed while the force is enough, else one force per step",
+            "whether it is enough is asked once per step");
     if (std::any_of(scenario_.joints.begin(), scenario_.joints.end(), adapter::canBreak))
         add("breaking", "mean force of a step", "force at the end of a step",
             "Simbody's multipliers are those of an instant");
     add("contacts", "none can be made", "none", "");
     add("sleeping", "off", "off");
+    add("velocity_limits", "none",
+        is("step", "fixed")
+            ? "none; where an exception of Simbody ends a step, the run has no numbers from there on"
+            : "none");
     const auto any = [&](const auto& of) {
         return std::any_of(scenario_.bodies.begin(), scenario_.bodies.end(), of);
     };

@@ -151,7 +151,11 @@ class Builder {
         if (use.damping > 0.0)
             SimTK::Force::MobilityLinearDamper(model_->forces, mobilizer, SimTK::MobilizerUIndex(0),
                                                use.damping);
-        if (use.hasMotor()) model_->motors.push_back({mobilizer, use.motorSpeed, use.motorMaxForce});
+        if (!use.hasMotor()) return;
+        SimTK::MobilizedBody of = mobilizer;
+        SimTK::Constraint::ConstantSpeed hold(of, SimTK::MobilizerUIndex(0), use.motorSpeed);
+        hold.setDisabledByDefault(true);
+        model_->motors.push_back({mobilizer, use.motorSpeed, use.motorMaxForce, hold});
     }
 
     std::vector<Part> partsOf(const Link& own, const Joint& joint) const {

@@ -28,7 +28,8 @@ struct Coordinate {
 /// A coordinate that a motor drives.
 struct Motor {
     SimTK::MobilizedBody mobilizer;
-    double speed = 0.0, maxForce = 0.0;  ///< [u/s], [N] or [N m]
+    double speed = 0.0, maxForce = 0.0;     ///< [u/s], [N] or [N m]
+    SimTK::Constraint::ConstantSpeed hold;  ///< enabled while the motor is strong enough to keep its speed
 };
 
 struct Model {

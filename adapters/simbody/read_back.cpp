@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Everything that is read out of Simbody: states, what was built, counters.
+#include <limits>
+
 #include "adapters/simbody/world.hpp"
 
 namespace rigor::simbody {
@@ -12,6 +14,11 @@ using scenario::BodyType;
 BodyState SimbodyWorld::stateOf(int body) const {
     const scenario::Body& of = scenario_.bodies[body];
     if (of.type == BodyType::Static) return {of.pose.position, of.pose.orientation, {}, {}};
+    if (lost_ && of.type == BodyType::Dynamic) {
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        const Vec3 none{nan, nan, nan};
+        return {none, {nan, nan, nan, nan}, none, none};
+    }
     const SimTK::MobilizedBody& mobilizer = model_->bodies[body];
     const Pose pose =
         fromSimbody(mobilizer.getBodyTransform(state_)) * inverse(model_->forest.links[body].frame);

@@ -30,6 +30,7 @@ SimbodyWorld::SimbodyWorld(const adapter::Scenario& scenario, double dt, const a
       forces_(scenario_.bodies.size()) {
     state_ = model_->system.realizeTopology();
     model_->system.realizeModel(state_);
+    nearSpeed_.resize(model_->motors.size());
     std::vector<BodyState> start;
     for (const Body& body : scenario_.bodies)
         start.push_back({body.pose.position, body.pose.orientation, body.velocity, body.angularVelocity});
@@ -61,6 +62,7 @@ void SimbodyWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
 bool SimbodyWorld::applyImpulse(int body, const Vec3& impulse, const Vec3& angularImpulse) {
     if (scenario_.bodies[body].type != BodyType::Dynamic) return true;
     const SimTK::SimbodyMatterSubsystem& matter = model_->matter;
+    releaseMotors();
     realize(Stage::Velocity);
     SimTK::Vector_<SimTK::SpatialVec> spatial(matter.getNumBodies(),
                                               SimTK::SpatialVec(SimTK::Vec3(0), SimTK::Vec3(0)));
@@ -105,57 +107,33 @@ void SimbodyWorld::prepareForces() {
     std::fill(forces_.begin(), forces_.end(), Wrench{});
 }
 
-/// Every motor has the force that brings its coordinate to its speed by the end of the step, within its bound. What the
-/// coordinates of all motors gain by a force at one of them is measured by applying it.
-void SimbodyWorld::setMotors() {
-    const std::size_t count = model_->motors.size();
-    const auto force = [&](std::size_t of, double value) {
-        model_->discrete.setOneMobilityForce(state_, model_->motors[of].mobilizer, SimTK::MobilizerUIndex(0),
-                                             value);
-    };
-    const auto accelerations = [&] {
-        realize(Stage::Acceleration);
-        std::vector<double> all;
-        for (const Motor& motor : model_->motors) all.push_back(motor.mobilizer.getOneUDot(state_, 0));
-        return all;
-    };
-    const std::vector<double> before = accelerations();
-    std::vector<std::vector<double>> gain;  // by the motor that pushes, then by the one that is pushed
-    for (std::size_t j = 0; j < count; ++j) {
-        force(j, 1.0);
-        gain.push_back(accelerations());
-        for (std::size_t i = 0; i < count; ++i) gain[j][i] -= before[i];
-        force(j, 0.0);
-    }
-    std::vector<double> forces(count, 0.0);
-    constexpr int kSweeps = 100;
-    for (int sweep = 0; sweep < (count > 1 ? kSweeps : 1); ++sweep)
-        for (std::size_t i = 0; i < count; ++i) {
-            const Motor& motor = model_->motors[i];
-            double missing = (motor.speed - motor.mobilizer.getOneU(state_, 0)) / dt_ - before[i];
-            for (std::size_t j = 0; j < count; ++j) missing -= gain[j][i] * forces[j];
-            if (gain[i][i] > 0.0)
-                forces[i] = std::clamp(forces[i] + missing / gain[i][i], -motor.maxForce, motor.maxForce);
-        }
-    for (std::size_t i = 0; i < count; ++i) force(i, forces[i]);
-}
-
 /// The integrator begins anew at every step: its forces have changed, and nothing of what it did before is left in it.
 void SimbodyWorld::integrate() {
     const double end = static_cast<double>(steps_ + 1) * dt_;
     if (!is("step", "fixed") && next_ > 0.0) integrator_->setInitialStepSize(std::min(next_, dt_));
     integrator_->resetAllStatistics();
-    integrator_->initialize(state_);
-    while (integrator_->getTime() < end) integrator_->stepTo(end, end);
+    try {
+        integrator_->initialize(state_);
+        while (integrator_->getTime() < end) integrator_->stepTo(end, end);
+    } catch (const SimTK::Exception::Base&) {
+        // A step of a size that was given can not be made smaller where it leads beyond all numbers.
+        if (!is("step", "fixed")) throw;
+        lost_ = true;
+    }
+    const SimTK::State& reached = integrator_->getAdvancedState();
+    lost_ = lost_ || !reached.getQ().isFinite() || !reached.getU().isFinite();
+    if (lost_) return;
     internalSteps_ = integrator_->getNumStepsTaken();
     next_ = integrator_->getPredictedNextStepSize();
-    state_ = integrator_->getAdvancedState();
+    state_ = reached;
 }
 
 void SimbodyWorld::step() {
+    if (lost_) return;
     prepareForces();
     if (!model_->motors.empty()) setMotors();
     integrate();
+    if (lost_) return;
     ++steps_;
     breakJoints();
     realize(Stage::Velocity);
@@ -198,6 +176,7 @@ void SimbodyWorld::save(std::vector<unsigned char>& bytes) const {
     put(state_.getQ());
     put(state_.getU());
     for (const LoopJoint& joint : model_->loops) numbers.push_back(joint.holds(state_) ? 1.0 : 0.0);
+    for (const bool near : nearSpeed_) numbers.push_back(near ? 1.0 : 0.0);
     for (const Wrench& wrench : forces_)
         for (const Vec3& v : {wrench.force, wrench.torque}) numbers.insert(numbers.end(), {v.x, v.y, v.z});
     bytes.resize(numbers.size() * sizeof(double));
@@ -222,6 +201,9 @@ bool SimbodyWorld::restore(const std::vector<unsigned char>& bytes) {
     takeAll(q);
     takeAll(u);
     for (const LoopJoint& joint : model_->loops) joint.setHolds(state_, take() != 0.0);
+    for (std::size_t i = 0; i < nearSpeed_.size(); ++i) nearSpeed_[i] = take() != 0.0;
+    releaseMotors();
+    lost_ = false;
     model_->system.realizeModel(state_);
     state_.setQ(q);
     state_.setU(u);

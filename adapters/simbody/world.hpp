@@ -42,6 +42,11 @@ class SimbodyWorld final : public adapter::World, public adapter::Snapshots, pub
     void place(std::span<const adapter::BodyState> states);
     void prepareForces();
     void setMotors();
+    std::vector<double> motorForces(const std::vector<SimTK::Vector>& gain,
+                                    const SimTK::Vector& before) const;
+    void hold(const std::vector<std::size_t>& held, const std::vector<SimTK::Vector>& gain);
+    void releaseMotors();
+    double rateOf(std::size_t motor, const SimTK::Vector& rates) const;
     void integrate();
     void breakJoints();
     void realize(SimTK::Stage stage) const { model_->system.realize(state_, stage); }
@@ -56,9 +61,11 @@ class SimbodyWorld final : public adapter::World, public adapter::Snapshots, pub
     std::shared_ptr<SimTK::Integrator> integrator_;
     SimTK::State state_;
     std::int64_t steps_ = 0;
-    double next_ = 0.0;           ///< size that the integrator proposes for its next step; 0: none yet [s]
-    std::vector<Wrench> forces_;  ///< forces of the coming step, by scenario body
-    int internalSteps_ = 0;       ///< steps of the integrator in the last step
+    double next_ = 0.0;            ///< size that the integrator proposes for its next step; 0: none yet [s]
+    std::vector<Wrench> forces_;   ///< forces of the coming step, by scenario body
+    std::vector<bool> nearSpeed_;  ///< by motor: the last step's force led to its speed
+    bool lost_ = false;            ///< the integrator has left all numbers
+    int internalSteps_ = 0;        ///< steps of the integrator in the last step
 };
 
 }  // namespace rigor::simbody
