@@ -11,7 +11,7 @@ namespace rigor::simbody {
 /// Adds the scenario's springs and drags, the damping of velocities, and the gravity of bodies that have their own.
 void addForces(const adapter::Scenario& scenario, Model& model);
 
-/// Where a body of the scenario is in Simbody's system; the world for kNone.
+/// Place of a body of the scenario in Simbody's system; the world for kNone.
 Frame frameOf(const adapter::Scenario& scenario, const Model& model, int body);
 
 }  // namespace rigor::simbody

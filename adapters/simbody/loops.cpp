@@ -110,6 +110,40 @@ void LoopJoint::keepOnLine(const Vec3& axisA, bool planar) {
                                   toSimbody(anchorB_));
 }
 
+bool LoopJoint::isIdle(const Constraint& part, const SimTK::State& state) {
+    constexpr double kSmallest = 1e-9;
+    const SimTK::Matrix rows = part.calcPositionConstraintMatrixP(state);
+    const SimTK::Vector errors = part.getPositionErrorsAsVector(state);
+    for (int i = 0; i < rows.nrow(); ++i) {
+        if (std::abs(errors[i]) > kSmallest) return false;
+        for (int j = 0; j < rows.ncol(); ++j)
+            if (std::abs(rows(i, j)) > kSmallest) return false;
+    }
+    return true;
+}
+
+/// Looked at where the bodies are and at two places near by, to which all coordinates go at once.
+void LoopJoint::dropIdle(const SimTK::MultibodySystem& system, SimTK::State& state) {
+    std::vector<bool> idle(parts_.size(), true);
+    for (const double way : {0.0, 0.1, -0.23}) {
+        SimTK::State near = state;
+        for (int i = 0; i < near.getNU(); ++i) near.updU()[i] = way * std::cos(1.7 * i + 0.4);
+        system.realize(near, SimTK::Stage::Velocity);
+        const SimTK::Vector rates = near.getQDot();
+        near.updQ() += rates;
+        system.realize(near, SimTK::Stage::Velocity);
+        for (std::size_t k = 0; k < parts_.size(); ++k) idle[k] = idle[k] && isIdle(parts_[k], near);
+    }
+    std::vector<Constraint> kept;
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        if (idle[k])
+            parts_[k].disable(state);
+        else
+            kept.push_back(parts_[k]);
+    }
+    parts_ = std::move(kept);
+}
+
 bool LoopJoint::holds(const SimTK::State& state) const {
     return std::none_of(parts_.begin(), parts_.end(),
                         [&](const Constraint& part) { return part.isDisabled(state); });

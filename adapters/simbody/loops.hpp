@@ -26,6 +26,10 @@ class LoopJoint {
               bool planar);
 
     int joint() const { return joint_; }
+
+    /// Leaves out the constraints that no coordinate can violate, near this state: two hinges on one axis. Where all
+    /// are such, Simbody's solution is not a number.
+    void dropIdle(const SimTK::MultibodySystem& system, SimTK::State& state);
     bool holds(const SimTK::State& state) const;
     void setHolds(SimTK::State& state, bool holds) const;
 
@@ -39,6 +43,8 @@ class LoopJoint {
     void keepOnLine(const Vec3& axisA, bool planar);
     template <class Constraint, class... Arguments>
     void add(Arguments&&... arguments);
+
+    static bool isIdle(const SimTK::Constraint& part, const SimTK::State& state);
 
     int joint_ = 0;
     double breakForce_, breakTorque_;

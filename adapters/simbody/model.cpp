@@ -188,7 +188,7 @@ class Builder {
         return {{Kind::Turn, axisIn(own, joint)}};
     }
 
-    /// What turns a body moves the axes of the next part.
+    /// A part that turns moves the axes of the next one.
     std::vector<Part> wheel(const Link& own, const Joint& joint) const {
         std::vector<Part> parts;
         if (joint.axes[0].mode != AxisMode::Locked)

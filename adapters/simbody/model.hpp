@@ -39,8 +39,8 @@ struct Model {
     SimTK::Force::Gravity gravity;
     SimTK::Force::DiscreteForces discrete;  ///< forces of a step, and those of motors
     Forest forest;
-    std::vector<SimTK::MobilizedBody> bodies;          ///< by scenario body; the ground for static ones
-    std::vector<std::vector<Coordinate>> coordinates;  ///< of joints in trees, by scenario body
+    std::vector<SimTK::MobilizedBody> bodies;  ///< bodies by scenario body; the ground for static ones
+    std::vector<std::vector<Coordinate>> coordinates;  ///< parts of joints in trees, by scenario body
     std::vector<LoopJoint> loops;                      ///< joints beside the trees
     std::vector<Motor> motors;
 };

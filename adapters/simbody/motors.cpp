@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Motors. Simbody has a constraint of constant speed without a bound on its force, so it is asked at every step whether a
+// Motors. Simbody has a constraint of constant speed without a bound on its force, so every step evaluates whether a
 // bounded force is enough: the speed is then a constraint, else the force is the bound.
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ void SimbodyWorld::hold(const std::vector<std::size_t>& held, const std::vector<
     for (const std::size_t i : held) model_->motors[i].hold.enable(state_);
 }
 
-/// What all coordinates gain by a motor's force is measured by applying it.
+/// The accelerations that a motor's force gives to all coordinates are measured by applying it.
 void SimbodyWorld::setMotors() {
     const auto& motors = model_->motors;
     releaseMotors();

@@ -5,6 +5,7 @@
 #include "adapters/simbody/world.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <variant>
 
@@ -35,6 +36,8 @@ SimbodyWorld::SimbodyWorld(const adapter::Scenario& scenario, double dt, const a
     for (const Body& body : scenario_.bodies)
         start.push_back({body.pose.position, body.pose.orientation, body.velocity, body.angularVelocity});
     place(start);
+    for (LoopJoint& joint : model_->loops) joint.dropIdle(model_->system, state_);
+    realize(Stage::Velocity);
 }
 
 bool SimbodyWorld::is(const char* key, const char* value) const {
@@ -121,7 +124,12 @@ void SimbodyWorld::integrate() {
         lost_ = true;
     }
     const SimTK::State& reached = integrator_->getAdvancedState();
-    lost_ = lost_ || !reached.getQ().isFinite() || !reached.getU().isFinite();
+    const auto isFinite = [](const Vector& of) {
+        for (int i = 0; i < of.size(); ++i)
+            if (!std::isfinite(of[i])) return false;
+        return true;
+    };
+    lost_ = lost_ || !isFinite(reached.getQ()) || !isFinite(reached.getU());
     if (lost_) return;
     internalSteps_ = integrator_->getNumStepsTaken();
     next_ = integrator_->getPredictedNextStepSize();

@@ -63,7 +63,7 @@ class SimbodyWorld final : public adapter::World, public adapter::Snapshots, pub
     std::int64_t steps_ = 0;
     double next_ = 0.0;            ///< size that the integrator proposes for its next step; 0: none yet [s]
     std::vector<Wrench> forces_;   ///< forces of the coming step, by scenario body
-    std::vector<bool> nearSpeed_;  ///< by motor: the last step's force led to its speed
+    std::vector<bool> nearSpeed_;  ///< flags by motor: the last step's force led to its speed
     bool lost_ = false;            ///< the integrator has left all numbers
     int internalSteps_ = 0;        ///< steps of the integrator in the last step
 };
