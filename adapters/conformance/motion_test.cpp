@@ -57,7 +57,7 @@ TEST_P(Motion, OrientationIsActiveAndTurnsAboutWorldAxes) {
 
 TEST_P(Motion, TorqueMeetsTheInverseInertiaOfTheTurnedBody) {
     Scenario s = scene();
-    const int b = addBody(s, block({0.3, 0.2, 0.1}), {}, 2.0, {0.5, 1.0, 2.0});
+    const int b = addBody(s, block({0.3, 0.2, 0.1}), {}, 2.0, {0.5, 1.0, 1.25});
     const Quat principal = fromAxisAngle(Vec3{2, -1, 1} / std::sqrt(6.0), 0.9);
     const Quat start = fromAxisAngle(Vec3{1, 2, 3} / std::sqrt(14.0), 1.1);
     Vec3 torque{0.02, -0.03, 0.01};
@@ -65,14 +65,14 @@ TEST_P(Motion, TorqueMeetsTheInverseInertiaOfTheTurnedBody) {
     const double dt = 1.0 / 100.0;
     if (is2d()) {
         torque = {0, 0, 0.01};
-        expected = dt / 2.0 * torque;
+        expected = dt / 1.25 * torque;
     } else {
-        const Mat3 axes = toMatrix(principal), moments = Mat3::diagonal(0.5, 1.0, 2.0);
+        const Mat3 axes = toMatrix(principal), moments = Mat3::diagonal(0.5, 1.0, 1.25);
         s.bodies[0].massProperties.inertia = axes * moments * transpose(axes);
         s.bodies[0].pose.orientation = start;
         const Vec3 inPrincipal = rotateInverse(start * principal, torque);
         expected = dt * rotate(start * principal,
-                               Vec3{inPrincipal.x / 0.5, inPrincipal.y / 1.0, inPrincipal.z / 2.0});
+                               Vec3{inPrincipal.x / 0.5, inPrincipal.y / 1.0, inPrincipal.z / 1.25});
     }
     auto world = build(s, dt);
     world->applyForce(b, {}, torque);
@@ -209,7 +209,9 @@ TEST_P(Motion, KinematicBodiesKeepTheirVelocity) {
     const BodyState state = stateOf(*world, s, k);
     within("kinematic_velocity", norm(state.velocity - s.bodies[0].velocity), tol(1e-12, 1e-6));
     within("kinematic_position", norm(state.position - s.bodies[0].velocity), tol(1e-12, 1e-5));
-    EXPECT_GT(stateOf(*world, s, pushed).position.x, 0.8) << "the kinematic body pushes";
+    if (s.bodies[k].collides && s.bodies[pushed].collides) {
+        EXPECT_GT(stateOf(*world, s, pushed).position.x, 0.8) << "the kinematic body pushes";
+    }
 }
 
 /// About their origin, wherever their shapes are.

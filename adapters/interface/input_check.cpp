@@ -302,17 +302,37 @@ void checkFilters(const scenario::Body& body, const std::string& user, const Cap
     }
 }
 
+/// Whether shapes of each body can touch any of another. A joint that can break keeps none apart for good.
+std::vector<bool> bodiesThatTouch(Scenario scenario) {
+    std::erase_if(scenario.joints, [](const scenario::Joint& joint) {
+        return joint.breakForce < 1e299 || joint.breakTorque < 1e299;
+    });
+    const int count = static_cast<int>(scenario.bodies.size());
+    const auto canMeet = [&](int a, int b) {
+        return !scenario.bodies[a].shapes.empty() && !scenario.bodies[b].shapes.empty() &&
+               scenario::mayCollide(scenario, a, b);
+    };
+    std::vector<bool> touches(scenario.bodies.size());
+    for (int a = 0; a < count; ++a)
+        for (int b = 0; b < count && !touches[a]; ++b) touches[a] = canMeet(a, b);
+    return touches;
+}
+
+/// An engine without shapes runs bodies whose shapes only give them mass and a picture.
 void checkBodies(const Scenario& scenario, const Capabilities& capabilities, const Lacks& lacks) {
-    for (const auto& body : scenario.bodies) {
+    std::vector<bool> canTouch;
+    if (capabilities.shapes.empty()) canTouch = bodiesThatTouch(scenario);
+    for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+        const auto& body = scenario.bodies[i];
         const std::string user = "body '" + body.name + "'";
+        const bool touches = capabilities.shapes.empty() ? canTouch[i] : body.collides;
         for (const auto& shape : body.shapes) {
             const std::string name = geometryName(shape.geometry, scenario.dimension);
-            if (body.collides && !contains(capabilities.shapes, name))
-                lacks(name, "shape '" + name + "'", user);
-            if (body.collides && shape.surfaceVelocity.moves() && !capabilities.surfaceVelocity)
+            if (touches && !contains(capabilities.shapes, name)) lacks(name, "shape '" + name + "'", user);
+            if (touches && shape.surfaceVelocity.moves() && !capabilities.surfaceVelocity)
                 lacks("surface_velocity", "velocity of a surface over its body", user);
         }
-        if (body.collides) checkFilters(body, user, capabilities, lacks);
+        if (touches) checkFilters(body, user, capabilities, lacks);
         if (body.type == BodyType::Kinematic && !capabilities.kinematicBodies)
             lacks("kinematic_bodies", "kinematic bodies", user);
         if ((body.linearVelocityKept != 1.0 || body.angularVelocityKept != 1.0) && !capabilities.damping)

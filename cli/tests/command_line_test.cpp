@@ -50,7 +50,7 @@ TEST(CommandLine, ListsEnginesWithVersionAndPrecision) {
         EXPECT_FALSE(engine.at("version").get<std::string>().empty()) << engine.at("name");
         EXPECT_TRUE(engine.at("precision") == "f32" || engine.at("precision") == "f64") << engine.at("name");
     }
-    for (const char* optional : {"chipmunk", "dart", "mujoco", "siconos"}) names.erase(optional);
+    for (const char* optional : {"chipmunk", "dart", "mujoco", "simbody", "siconos"}) names.erase(optional);
     EXPECT_EQ(names, (std::set<std::string>{"box2d", "bullet", "fcl", "ode", "rigor"}));
 }
 

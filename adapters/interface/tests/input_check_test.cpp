@@ -195,6 +195,26 @@ TEST(Supported, TheFirstThingMissingIsNamed) {
     refuses("centre of mass", [](Scenario& s) { s.bodies[1].massProperties.centerOfMass = {0.1, 0, 0}; });
 }
 
+/// Without shapes an engine runs what can touch nothing for good.
+TEST(Supported, AnEngineWithoutShapesRunsWhatCanTouchNothing) {
+    Capabilities c;
+    c.dynamics = true;
+    c.dimensions = {3};
+    c.joints = {"distance", "distance.break"};
+    Scenario s = goodScenario();
+    s.joints[0].collideConnected = false;
+    s.joints[0].bodyA = 0;
+    s.joints[0].bodyB = 1;
+    s.bodies.resize(2);
+    EXPECT_NO_THROW(checkSupported(s, c, "toy"));
+    s.joints[0].breakForce = 10.0;
+    EXPECT_THROW(checkSupported(s, c, "toy"), Unsupported) << "the joint keeps them apart until it breaks";
+    s.joints.clear();
+    EXPECT_THROW(checkSupported(s, c, "toy"), Unsupported);
+    s.bodies[0].collides = false;
+    EXPECT_NO_THROW(checkSupported(s, c, "toy"));
+}
+
 TEST(Supported, ARefusalSaysWhoLacksIt) {
     Capabilities c;
     c.dynamics = true;

@@ -62,6 +62,9 @@ const std::vector<Rule>& rules() {
         {"scenarios/exchange", {"scenarios/"}},
         {"adapters/interface", {"scenarios/model/"}},
         {"adapters/conformance", {"adapters/interface/", "scenarios/"}},
+        // Simbody's headers need one of the adapter's to compile.
+        {"adapters/conformance/plain_programs/simbody",
+         {"adapters/interface/", "scenarios/", "adapters/conformance/", "adapters/simbody/headers.hpp"}},
         {"adapters/rigor/python",
          {"adapters/interface/", "adapters/rigor/", "scenarios/json/", "scenarios/loader/",
           "scenarios/model/", "engine/"}},
@@ -285,6 +288,7 @@ TEST(IncludeRule, ThirdPartyHeadersStayInTheirRooms) {
         {std::regex(R"(#include\s*<chipmunk/)"),
          {"adapters/chipmunk/", "adapters/conformance/plain_programs/chipmunk/"}},
         {std::regex(R"(#include\s*<dart/)"), {"adapters/dart/", "adapters/conformance/plain_programs/dart/"}},
+        {std::regex(R"(#include\s*<(Simbody|SimTK))"), {"adapters/simbody/"}},
         {std::regex(R"(#include\s*<fclib)"), {"validation/contact_problems/tests/oracle/"}},
         {std::regex(R"(#include\s*<(SQLiteCpp/|sqlite3|hdf5))"),
          {"validation/results/", "reports/tests/browser_tool.cpp"}},

@@ -51,6 +51,7 @@ TEST(Tree, EveryFolderHasAReadme) {
                                "adapters/mujoco",
                                "adapters/chipmunk",
                                "adapters/dart",
+                               "adapters/simbody",
                                "adapters/siconos",
                                "adapters/guest",
                                "adapters/conformance",
