@@ -142,6 +142,7 @@ nlohmann::ordered_json caseJson(const results::CaseRow& c) {
                            {"value", m.value},
                            {"unit", m.unit}});
         if (m.bound) metrics.back()["bound"] = *m.bound;
+        if (m.boundMin) metrics.back()["bound_min"] = *m.boundMin;
         metrics.back()["verdict"] = results::verdictName(m.verdict);
         if (m.relative) metrics.back()["relative"] = *m.relative;
         if (m.ideal) metrics.back()["ideal"] = *m.ideal;

@@ -192,6 +192,9 @@ TEST(CommandLine, BoundsUnderOverridesAreExplainedAndCanBeGiven) {
     const auto red = rigor(heavier);
     EXPECT_EQ(red.code, 1);
     EXPECT_NE(red.out.find("bounds were set at the file's own values"), std::string::npos) << red.out;
+    const auto redJson = nlohmann::json::parse(rigor(heavier + " --json", false).out);
+    EXPECT_NE(redJson.at("note").get<std::string>().find("bounds were set at the file's own values"),
+              std::string::npos);
     const auto green = rigor(heavier + " --set 'accept.*.position_final=0.186'");
     EXPECT_EQ(green.code, 0) << green.out;
     EXPECT_EQ(green.out.find("note:"), std::string::npos);
@@ -226,6 +229,24 @@ TEST(CommandLine, ABoundThatIsMissedSaysWhy) {
     EXPECT_NE(least.out.find("mean_contacts misses its bound: less than its lower bound 3"),
               std::string::npos)
         << least.out;
+    EXPECT_NE(least.out.find("bounds 3 to 9  fail"), std::string::npos) << least.out;
+    const auto json =
+        nlohmann::json::parse(rigor(balls + R"( --set bodies.ball.position=[0,1.02915] --json)" +
+                                        R"( --set 'accept.*.mean_contacts={"min":3,"max":9}')",
+                                    false)
+                                  .out);
+    EXPECT_EQ(json.at("note"), "");
+    EXPECT_EQ(json.at("accuracy").at("note"), "") << "it is graded";
+    const auto ungraded =
+        rigorJson(std::string("run ") + RIGOR_SOURCE_DIR + "/reports/handbook/exercises/spring.json --json");
+    EXPECT_EQ(ungraded.at("accuracy").at("note"), "no exact solution");
+    const auto& metrics = json.at("metrics");
+    const auto bounded = std::find_if(metrics.begin(), metrics.end(),
+                                      [](const auto& m) { return m.at("name") == "mean_contacts"; });
+    ASSERT_NE(bounded, metrics.end());
+    EXPECT_EQ(bounded->at("bound"), 9.0);
+    EXPECT_EQ(bounded->at("bound_min"), 3.0);
+    EXPECT_EQ(bounded->at("note"), "less than its lower bound 3");
 }
 
 /// Lines of `text` that hold `what`.

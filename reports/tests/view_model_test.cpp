@@ -365,9 +365,13 @@ TEST(ViewModel, AnOffenderBelowItsLowerBoundSaysSo) {
     run.cases[0].verdict = Verdict::Fail;
     run.cases[0].metrics[0].verdict = Verdict::Fail;
     run.cases[0].metrics[0].note = "less than its lower bound 0.9";
+    run.cases[0].metrics[0].boundMin = 0.9;
     const ViewModel view(run);
     ASSERT_EQ(view.offenders().size(), 1u);
     EXPECT_EQ(view.offenders()[0].text, "error 0.5 m, less than its lower bound 0.9");
+    EXPECT_DOUBLE_EQ(view.offenders()[0].excess, 0.9 / 0.5);
+    EXPECT_EQ(excessOf(0.0, 1.0, 0.9), std::numeric_limits<double>::infinity());
+    EXPECT_DOUBLE_EQ(excessOf(3.0, 2.0, 0.9), 1.5);
 }
 
 TEST(ViewModel, LedgerGathersEqualLinesOverScenarios) {

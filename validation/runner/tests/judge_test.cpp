@@ -49,6 +49,7 @@ TEST_P(MetricVerdicts, FollowTheTable) {
     judgeMetric(row, judged(), judgedCase);
     EXPECT_STREQ(results::verdictName(row.verdict), results::verdictName(c.verdict));
     const bool isBelow = std::string(c.metric) == "between" && c.value < 1.0;
+    EXPECT_EQ(row.boundMin, std::string(c.metric) == "between" ? std::optional(1.0) : std::nullopt);
     EXPECT_EQ(row.note, isBelow                                ? "less than its lower bound 1"
                         : c.verdict == Verdict::KnownDeviation ? "a skin"
                                                                : "");
