@@ -576,6 +576,35 @@ TEST(CommandLine, RunReportsLibrariesThatFail) {
     }
 }
 
+/// Box2D has no 3D. What cannot be run is shown and no failure, but alone it is no success.
+TEST(CommandLine, ARunThatJudgesNothingIsNoSuccess) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / "judges-nothing";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    const auto run = [&](const std::string& engines, const std::string& name, const std::string& more = "",
+                         bool withErrors = true) {
+        return rigor("validate slide_and_stop --dt 1/60 --no-audit -q --engines " + engines + " --out " +
+                         (folder / name).string() + more,
+                     withErrors);
+    };
+    const auto alone = run("box2d", "alone");
+    EXPECT_EQ(alone.code, 4) << alone.out;
+    EXPECT_NE(alone.out.find("nothing was judged: every case is unsupported"), std::string::npos)
+        << alone.out;
+    EXPECT_EQ(alone.out.find("no case is red"), std::string::npos) << alone.out;
+    const auto json = run("box2d", "json", " --json", false);
+    EXPECT_EQ(json.code, 4);
+    EXPECT_EQ(nlohmann::json::parse(json.out).at("green"), false);
+    const auto both = run("box2d,rigor:preset=default", "both");
+    EXPECT_EQ(both.code, 0) << both.out;
+    EXPECT_NE(both.out.find("note: no case of box2d was judged, all are unsupported: "), std::string::npos)
+        << both.out;
+    EXPECT_EQ(both.out.find("nothing was judged"), std::string::npos) << both.out;
+    EXPECT_EQ(run("box2d", "shard", " --shard 1/1").code, 0) << "other shards may have more";
+    EXPECT_EQ(rigor("merge " + (folder / "shard").string() + " --out " + (folder / "merged").string()).code,
+              4);
+}
+
 TEST(CommandLine, ResumeKnowsItsRequest) {
     const auto run = (std::filesystem::path(testing::TempDir()) / "resumed-run").string();
     std::filesystem::remove_all(run);

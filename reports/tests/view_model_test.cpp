@@ -153,6 +153,16 @@ TEST(ViewModel, ARunOfManyScenariosHasAShortTitle) {
     EXPECT_EQ(verdictSentence(ViewModel(run)), "a b c and 2 more: no case is red");
 }
 
+TEST(ViewModel, ARunOfUnsupportedCasesAloneIsNotCalledGreen) {
+    results::Run run = twoScenarios();
+    run.suite = "mine";
+    run.cases = {makeCase("a", "one", 0.01, 1.0), makeCase("a", "two", 0.01, 1.0)};
+    run.cases[0].verdict = Verdict::Unsupported;
+    EXPECT_EQ(verdictSentence(ViewModel(run)), "mine: no case is red");
+    run.cases[1].verdict = Verdict::Unsupported;
+    EXPECT_EQ(verdictSentence(ViewModel(run)), "mine: nothing was judged, every case is unsupported");
+}
+
 TEST(ViewModel, SentencesSayWhatWasComparedWithWhat) {
     CaseRow c = makeCase("a", "one", 1.0 / 60.0, 0.2);
     EXPECT_EQ(accuracySentence(c),

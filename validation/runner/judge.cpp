@@ -173,6 +173,12 @@ bool lacksReferencesAlone(const results::Run& run) {
            std::any_of(run.cases.begin(), run.cases.end(), lacksReference);
 }
 
+bool judgesNothing(const results::Run& run) {
+    return !run.cases.empty() && std::all_of(run.cases.begin(), run.cases.end(), [](const CaseRow& c) {
+        return c.verdict == Verdict::Unsupported;
+    });
+}
+
 void judgeWithoutReference(CaseRow& row, const ReferenceCheck& check) {
     if (row.outcome != Outcome::Completed || row.verdict == Verdict::Fail || !check.brokeDown()) return;
     row.verdict = Verdict::NoReference;

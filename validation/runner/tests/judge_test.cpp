@@ -207,6 +207,18 @@ TEST(Green, IsWhatTheExitCodeSays) {
     EXPECT_FALSE(green(kInHouseEngine, Verdict::KnownDeviation)) << "it may not excuse itself";
 }
 
+TEST(Green, ARunOfUnsupportedCasesAloneJudgesNothing) {
+    results::Run run;
+    EXPECT_FALSE(judgesNothing(run));
+    run.cases.resize(2);
+    for (auto& c : run.cases) c.verdict = Verdict::Unsupported;
+    EXPECT_TRUE(judgesNothing(run));
+    for (const auto verdict : {Verdict::Pass, Verdict::Fail, Verdict::Crashed, Verdict::NoReference}) {
+        run.cases[1].verdict = verdict;
+        EXPECT_FALSE(judgesNothing(run));
+    }
+}
+
 TEST(Green, TheInHouseEngineMayNotBecomeWorseAndOthersMayNotLoseAGrade) {
     const auto green = [](const std::string& engine, results::Regression regression, double value) {
         results::Run run;
