@@ -18,6 +18,7 @@ class Option;
 }  // namespace CLI
 namespace rigor::results {
 struct CaseRow;
+struct Run;
 }  // namespace rigor::results
 namespace rigor::scenario {
 class LoadError;
@@ -29,11 +30,13 @@ namespace rigor::cli {
 
 /// Exit codes, documented in `rigor --help` and the README.
 enum ExitCode : int {
-    kOk = 0,           ///< done; for `validate`: the conditions of runIsGreen() (runner.hpp) hold
-    kRed = 1,          ///< the run finished and something in it is red
-    kBadInput = 2,     ///< command line, scenario file or engine spec
-    kInternal = 3,     ///< the environment or Rigor itself failed
-    kUnsupported = 4,  ///< `run`: the engine lacks what the scenario needs
+    kOk =
+        0,  ///< done; for `validate`: the conditions of runIsGreen() (runner.hpp) hold, and a case was judged
+    kRed = 1,       ///< the run finished and something in it is red
+    kBadInput = 2,  ///< command line, scenario file or engine spec
+    kInternal = 3,  ///< the environment or Rigor itself failed
+    kUnsupported =
+        4,  ///< the engine lacks what the scenario needs; `validate`, `merge`: every case is unsupported
     kCrashed = 5,      ///< `run`: the engine crashed
     kNoReference = 6,  ///< nothing is red, but a reference did not finish, ran out of memory or crashed
     kEnvironment =
@@ -113,6 +116,12 @@ void addEngines(CLI::App& command, std::string& engines, const std::string& help
 
 /// Type of options whose texts may be empty, as the word is that a command line ends with before it is begun.
 inline constexpr const char* kMayBeEmpty = "WORD";
+
+/// Exit code of a finished run of `validate` or `merge`. Says on standard error that nothing was judged where every case
+/// is unsupported.
+int endOfRun(const results::Run& run);
+/// Says on standard error which of the engines have no case that they support, in a run in which others have.
+void sayIdleEngines(const results::Run& run);
 
 /// --reference-limit SECONDS
 void addReferenceLimit(CLI::App& command, validation::ReferenceLimits& limits);

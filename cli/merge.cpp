@@ -22,8 +22,7 @@ int merge(const validation::MergeOptions& options) {
         report::terminalSummary(run, 40, terminalColumns(STDOUT_FILENO), wantsColour(STDOUT_FILENO)).c_str());
     if (const auto it = run.environment.find("merged"); run.finished.empty() && it != run.environment.end())
         std::fprintf(stderr, "rigor: merged %s\n", it->second.c_str());
-    if (validation::lacksReferencesAlone(run)) return kNoReference;
-    return validation::runIsGreen(run) ? kOk : kRed;
+    return endOfRun(run);
 }
 
 }  // namespace
@@ -38,7 +37,8 @@ void addMerge(CLI::App& app, Action& action) {
                       "Merge although shards are missing or unfinished; the run stays unfinished");
     command->footer(
         "Exit codes: 0 merged and green, 1 merged and something is red, 2 the shards do not fit together,\n"
-        "            6 as of `validate`, 7 the environment failed (no space, damaged files).");
+        "            4 every case is unsupported, 6 as of `validate`, 7 the environment failed (no space, "
+        "damaged files).");
     command->callback([a, &action] {
         action = [a] {
             a->command = ownCommandLine();

@@ -30,7 +30,8 @@ constexpr const char* kLauncher =
     "ones too.";
 constexpr const char* kFooter =
     "Exit codes: 0 done and green, 1 something in the run is red, 2 bad command line or input file,\n"
-    "            3 internal error, 4 the engine lacks what the scenario needs, 5 the engine crashed,\n"
+    "            3 internal error, 4 the engine lacks what the scenario needs (`validate`: in every case),\n"
+    "            5 the engine crashed,\n"
     "            6 nothing is red, but a reference did not finish, ran out of memory or crashed,\n"
     "            7 the environment failed (no space, no permission, killed from outside, damaged files),\n"
     "            130 interrupted (a run can be resumed).\n"

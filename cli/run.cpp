@@ -69,7 +69,18 @@ nlohmann::ordered_json accuracyJson(const results::CaseRow& row) {
     return {{"grade", results::gradeName(row.accuracy.grade)},
             {"metric", row.accuracy.metric},
             {"relative", number(row.accuracy.relative)},
-            {"ideal", number(row.accuracy.ideal)}};
+            {"ideal", number(row.accuracy.ideal)},
+            {"note", row.accuracy.note}};
+}
+
+nlohmann::ordered_json metricJson(const results::MetricRow& m) {
+    nlohmann::ordered_json out{
+        {"name", m.name}, {"subject", m.subject}, {"kind", m.kind}, {"value", m.value}, {"unit", m.unit}};
+    if (m.bound) out["bound"] = *m.bound;
+    if (m.boundMin) out["bound_min"] = *m.boundMin;
+    out["verdict"] = results::verdictName(m.verdict);
+    if (!m.note.empty()) out["note"] = m.note;
+    return out;
 }
 
 nlohmann::ordered_json stepJson(const results::TimingRow& t) {
@@ -97,7 +108,8 @@ void printStep(const results::TimingRow& t) {
     std::printf("\n");
 }
 
-void printCase(const results::CaseRow& row, bool json) {
+/// `note`: on the whole case; may be empty.
+void printCase(const results::CaseRow& row, const std::string& note, bool json) {
     if (json) {
         nlohmann::ordered_json out{{"name", row.scenario},
                                    {"spec", row.spec},
@@ -105,19 +117,14 @@ void printCase(const results::CaseRow& row, bool json) {
                                    {"outcome", results::outcomeName(row.outcome)},
                                    {"verdict", results::verdictName(row.verdict)},
                                    {"reason", row.reason},
+                                   {"note", note},
                                    {"steps", row.steps},
                                    {"state_hash", row.stateHash},
                                    {"accuracy", accuracyJson(row)},
                                    {"metrics", nlohmann::json::array()},
                                    {"quantities", nlohmann::json::array()}};
         if (const auto* step = report::stepTiming(row)) out["step"] = stepJson(*step);
-        for (const auto& m : row.metrics)
-            out["metrics"].push_back({{"name", m.name},
-                                      {"subject", m.subject},
-                                      {"kind", m.kind},
-                                      {"value", m.value},
-                                      {"unit", m.unit},
-                                      {"verdict", results::verdictName(m.verdict)}});
+        for (const auto& m : row.metrics) out["metrics"].push_back(metricJson(m));
         for (const auto& q : row.quantities) {
             out["quantities"].push_back({{"name", q.name}, {"unit", q.unit}, {"exact", q.exact}});
             if (q.schemeExact) out["quantities"].back()["scheme_exact"] = *q.schemeExact;
@@ -137,7 +144,10 @@ void printCase(const results::CaseRow& row, bool json) {
             std::printf("  %-26s %-13s %14s %-8s", m.name.c_str(), m.kind.c_str(), "-", m.unit.c_str());
         else
             std::printf("  %-26s %-13s %14.6g %-8s", m.name.c_str(), m.kind.c_str(), m.value, m.unit.c_str());
-        if (m.bound) std::printf("  bound %.4g  %s", *m.bound, results::verdictName(m.verdict));
+        if (m.bound && m.boundMin)
+            std::printf("  bounds %.4g to %.4g  %s", *m.boundMin, *m.bound, results::verdictName(m.verdict));
+        if (m.bound && !m.boundMin)
+            std::printf("  bound %.4g  %s", *m.bound, results::verdictName(m.verdict));
         if (m.verdict == results::Verdict::Fail && !m.note.empty()) std::printf(" (%s)", m.note.c_str());
         std::printf("\n");
     }
@@ -225,8 +235,9 @@ int runHere(const RunArguments& a) {
         s, validation::withScenarioSettings(adapter::parseSpec(a.engine), loaded.text), dt, options);
     validation::setAlarm(0.0);
     if (csv != nullptr && !csv->flush()) throw results::EnvironmentError(a.csv, "cannot be written", errno);
-    if (a.csv != "-") printCase(live.row, a.json);
-    if (missesByOtherValues(live.row, a.overrides)) std::fprintf(stderr, "note: %s\n", kBoundsNote);
+    const std::string note = missesByOtherValues(live.row, a.overrides) ? kBoundsNote : "";
+    if (a.csv != "-") printCase(live.row, note, a.json);
+    if (!note.empty()) std::fprintf(stderr, "note: %s\n", note.c_str());
     switch (live.row.verdict) {
         case results::Verdict::Pass:
         case results::Verdict::KnownDeviation:

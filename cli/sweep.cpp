@@ -128,7 +128,7 @@ std::string shardScript(const SweepArguments& a, const fs::path& out) {
 /// Makes the tables of a study once the run is whole. What was red in the merge alone is judged by the study.
 std::string evaluation(const SweepArguments& a, const fs::path& out) {
     if (!a.isStudy) return "";
-    return "code=$?\ncase $code in 0 | 1 | 6) ;; *) exit $code ;; esac\n"
+    return "code=$?\ncase $code in 0 | 1 | 4 | 6) ;; *) exit $code ;; esac\n"
            "for option; do [ \"$option\" = --partial ] && exit $code; done\ncd \"$start\" || exit 7\nexec " +
            programWith(a) + " --resume --quiet --out " + shellWord((out / "run").string()) + "\n";
 }

@@ -142,6 +142,7 @@ nlohmann::ordered_json caseJson(const results::CaseRow& c) {
                            {"value", m.value},
                            {"unit", m.unit}});
         if (m.bound) metrics.back()["bound"] = *m.bound;
+        if (m.boundMin) metrics.back()["bound_min"] = *m.boundMin;
         metrics.back()["verdict"] = results::verdictName(m.verdict);
         if (m.relative) metrics.back()["relative"] = *m.relative;
         if (m.ideal) metrics.back()["ideal"] = *m.ideal;
@@ -180,7 +181,7 @@ std::string resultText(const results::Run& run, const fs::path& directory, bool 
     if (!json)
         return report::terminalSummary(run, 40, terminalColumns(STDOUT_FILENO), wantsColour(STDOUT_FILENO));
     nlohmann::ordered_json out{{"run", directory.string()},
-                               {"green", validation::runIsGreen(run)},
+                               {"green", validation::runIsGreen(run) && !validation::judgesNothing(run)},
                                {"cases", nlohmann::json::array()}};
     for (const auto& c : run.cases) out["cases"].push_back(caseJson(c));
     return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -190,7 +191,8 @@ std::string resultText(const results::Run& run, const fs::path& directory, bool 
 /// would be in memory.
 struct Ending {
     std::string text;
-    bool green = false, lacksReferencesAlone = false, missesByOtherValues = false;
+    int code = kOk;  ///< exit code of the run by itself, without a baseline
+    bool missesByOtherValues = false;
 };
 
 Ending endingOf(const results::Run& run, const ValidateArguments& arguments, const fs::path& directory) {
@@ -199,8 +201,6 @@ Ending endingOf(const results::Run& run, const ValidateArguments& arguments, con
                       ? "Shard " + arguments.shard + ": " + std::to_string(run.cases.size()) +
                             " cases are stored in " + directory.string()
                       : resultText(run, directory, arguments.json);
-    ending.green = validation::runIsGreen(run);
-    ending.lacksReferencesAlone = validation::lacksReferencesAlone(run);
     ending.missesByOtherValues = std::any_of(run.cases.begin(), run.cases.end(), [&](const auto& c) {
         return missesByOtherValues(c, arguments.overrides);
     });
@@ -263,14 +263,16 @@ int validate(const ValidateArguments& given) {
         return kInterrupted;
     }
     releaseInterrupts();
-    const Ending ending = endingOf(*run, arguments, options.directory);
+    Ending ending = endingOf(*run, arguments, options.directory);
+    // A shard of which nothing is supported is one like others: `rigor merge` judges them together.
+    ending.code = options.shard && validation::judgesNothing(*run) ? kOk : endOfRun(*run);
+    if (!options.shard && !arguments.engines.empty()) sayIdleEngines(*run);
     run.reset();
     if (!options.shard) report::writeReports(options.directory);  // `rigor merge` writes one for all shards
     std::printf("%s\n", ending.text.c_str());
     if (ending.missesByOtherValues) std::fprintf(stderr, "note: %s\n", kBoundsNote);
     const bool worse = !arguments.baseline.empty() && becameWorseThan(arguments.baseline, options.directory);
-    if (!worse && ending.lacksReferencesAlone) return kNoReference;
-    return ending.green && !worse ? kOk : kRed;
+    return worse ? kRed : ending.code;
 }
 
 }  // namespace
@@ -314,6 +316,14 @@ void addValidate(CLI::App& app, Action& action) {
     command->add_flag("--no-audit", a->noAudit, "Leave out the contact audit");
     command->add_flag("--json", a->json, "Print the results as JSON");
     command->add_flag("-q,--quiet", a->quiet, "No progress");
+    command->footer(
+        "Exit codes: 0 something was judged and nothing is red, 1 something is red, 2 bad command line or "
+        "input file,\n"
+        "            3 internal error, 4 nothing was judged: every case is unsupported, 6 nothing is red, "
+        "but a reference\n"
+        "            did not finish, ran out of memory or crashed, 7 the environment failed (no space, no "
+        "permission,\n"
+        "            killed from outside, damaged files), 130 interrupted (go on with --resume).");
     command->callback([a, &action] { action = [a] { return validate(*a); }; });
 }
 

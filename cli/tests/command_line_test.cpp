@@ -192,6 +192,9 @@ TEST(CommandLine, BoundsUnderOverridesAreExplainedAndCanBeGiven) {
     const auto red = rigor(heavier);
     EXPECT_EQ(red.code, 1);
     EXPECT_NE(red.out.find("bounds were set at the file's own values"), std::string::npos) << red.out;
+    const auto redJson = nlohmann::json::parse(rigor(heavier + " --json", false).out);
+    EXPECT_NE(redJson.at("note").get<std::string>().find("bounds were set at the file's own values"),
+              std::string::npos);
     const auto green = rigor(heavier + " --set 'accept.*.position_final=0.186'");
     EXPECT_EQ(green.code, 0) << green.out;
     EXPECT_EQ(green.out.find("note:"), std::string::npos);
@@ -226,6 +229,24 @@ TEST(CommandLine, ABoundThatIsMissedSaysWhy) {
     EXPECT_NE(least.out.find("mean_contacts misses its bound: less than its lower bound 3"),
               std::string::npos)
         << least.out;
+    EXPECT_NE(least.out.find("bounds 3 to 9  fail"), std::string::npos) << least.out;
+    const auto json =
+        nlohmann::json::parse(rigor(balls + R"( --set bodies.ball.position=[0,1.02915] --json)" +
+                                        R"( --set 'accept.*.mean_contacts={"min":3,"max":9}')",
+                                    false)
+                                  .out);
+    EXPECT_EQ(json.at("note"), "");
+    EXPECT_EQ(json.at("accuracy").at("note"), "") << "it is graded";
+    const auto ungraded =
+        rigorJson(std::string("run ") + RIGOR_SOURCE_DIR + "/reports/handbook/exercises/spring.json --json");
+    EXPECT_EQ(ungraded.at("accuracy").at("note"), "no exact solution");
+    const auto& metrics = json.at("metrics");
+    const auto bounded = std::find_if(metrics.begin(), metrics.end(),
+                                      [](const auto& m) { return m.at("name") == "mean_contacts"; });
+    ASSERT_NE(bounded, metrics.end());
+    EXPECT_EQ(bounded->at("bound"), 9.0);
+    EXPECT_EQ(bounded->at("bound_min"), 3.0);
+    EXPECT_EQ(bounded->at("note"), "less than its lower bound 3");
 }
 
 /// Lines of `text` that hold `what`.
@@ -553,6 +574,35 @@ TEST(CommandLine, RunReportsLibrariesThatFail) {
         EXPECT_NE(result.out.find(engine), std::string::npos) << result.out;
         EXPECT_EQ(result.out.find("internal error"), std::string::npos) << result.out;
     }
+}
+
+/// Box2D has no 3D. What cannot be run is shown and no failure, but alone it is no success.
+TEST(CommandLine, ARunThatJudgesNothingIsNoSuccess) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / "judges-nothing";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    const auto run = [&](const std::string& engines, const std::string& name, const std::string& more = "",
+                         bool withErrors = true) {
+        return rigor("validate slide_and_stop --dt 1/60 --no-audit -q --engines " + engines + " --out " +
+                         (folder / name).string() + more,
+                     withErrors);
+    };
+    const auto alone = run("box2d", "alone");
+    EXPECT_EQ(alone.code, 4) << alone.out;
+    EXPECT_NE(alone.out.find("nothing was judged: every case is unsupported"), std::string::npos)
+        << alone.out;
+    EXPECT_EQ(alone.out.find("no case is red"), std::string::npos) << alone.out;
+    const auto json = run("box2d", "json", " --json", false);
+    EXPECT_EQ(json.code, 4);
+    EXPECT_EQ(nlohmann::json::parse(json.out).at("green"), false);
+    const auto both = run("box2d,rigor:preset=default", "both");
+    EXPECT_EQ(both.code, 0) << both.out;
+    EXPECT_NE(both.out.find("note: no case of box2d was judged, all are unsupported: "), std::string::npos)
+        << both.out;
+    EXPECT_EQ(both.out.find("nothing was judged"), std::string::npos) << both.out;
+    EXPECT_EQ(run("box2d", "shard", " --shard 1/1").code, 0) << "other shards may have more";
+    EXPECT_EQ(rigor("merge " + (folder / "shard").string() + " --out " + (folder / "merged").string()).code,
+              4);
 }
 
 TEST(CommandLine, ResumeKnowsItsRequest) {

@@ -89,8 +89,8 @@ TEST(HandbookPages, NumbersAreJudgedFromBothSides) {
     EXPECT_GE(words, 6u);
 }
 
-/// Engines that do as good as nothing: the one that `rigor new engine` writes, which knows free flight only but says
-/// that it has shapes, and the same without motion.
+/// Engines that do as good as nothing: the one that `rigor new engine` writes, which knows free flight only; the same that
+/// says that it has shapes; and this without motion.
 class EngineThatDoesNothing : public testing::TestWithParam<const char*> {};
 
 TEST_P(EngineThatDoesNothing, IsRedInEveryExerciseForAnEngineOfOnesOwn) {
@@ -101,7 +101,9 @@ TEST_P(EngineThatDoesNothing, IsRedInEveryExerciseForAnEngineOfOnesOwn) {
     ASSERT_EQ(runShownCommand(folder, "./rigor new engine mine --language python").code, 0);
     const std::string shapes =
         R"(s/"dimensions": .2, 3.,/& "shapes": ["box", "circle", "half_plane", "half_space", "sphere"],/)";
-    ASSERT_EQ(runShownCommand(folder, "sed -i '" + shapes + "' mine/mine.py").code, 0);
+    if (name != "written") {
+        ASSERT_EQ(runShownCommand(folder, "sed -i '" + shapes + "' mine/mine.py").code, 0);
+    }
     if (name == "frozen") {
         ASSERT_EQ(runShownCommand(folder, "sed -i 's/if body.moves:/if False:/' mine/mine.py").code, 0);
     }
@@ -111,13 +113,13 @@ TEST_P(EngineThatDoesNothing, IsRedInEveryExerciseForAnEngineOfOnesOwn) {
             const std::string& judge = exercise.judges.front();
             if (!judge.starts_with("RIGOR_ADAPTER_PATH=mine")) continue;
             const Ended ended = runShownCommand(folder, judge);
-            EXPECT_EQ(ended.code, 1) << page << ": " << judge << "\n" << ended.output;
+            EXPECT_EQ(ended.code, name == "written" ? 4 : 1) << page << ": " << judge << "\n" << ended.output;
             ++own;
         }
     EXPECT_GE(own, 9u);
 }
 
-INSTANTIATE_TEST_SUITE_P(OwnEngine, EngineThatDoesNothing, testing::Values("falling", "frozen"),
+INSTANTIATE_TEST_SUITE_P(OwnEngine, EngineThatDoesNothing, testing::Values("written", "falling", "frozen"),
                          [](const auto& engine) { return std::string(engine.param); });
 
 }  // namespace

@@ -115,6 +115,9 @@ std::string runTitle(const results::Run& run) {
 std::string verdictSentence(const ViewModel& view) {
     const std::string name = runTitle(view.run());
     const int red = view.totals().red;
+    const auto unsupported = view.totals().cases.find(Shown::Unsupported);
+    if (unsupported != view.totals().cases.end() && unsupported->second == view.totals().total)
+        return name + ": nothing was judged, every case is unsupported";
     if (red == 0) return name + ": no case is red";
     return name + ": " + std::to_string(red) + " of " +
            results::counted(static_cast<std::size_t>(view.totals().total), "case") +

@@ -122,8 +122,7 @@ Offender offenderOf(const CaseRow& row) {
     for (const auto& m : row.metrics) {
         if (m.verdict != Verdict::Fail) continue;
         const double limit = m.bound ? *m.bound : m.expectation.value_or(0.0);
-        const double excess =
-            std::isnan(m.value) || limit <= 0.0 ? std::numeric_limits<double>::infinity() : m.value / limit;
+        const double excess = excessOf(m.value, limit, m.boundMin);
         if (excess > worst) {
             worst = excess;
             offender.metric = &m;
@@ -191,6 +190,12 @@ Shown shownOf(const CaseRow& row) {
     const bool judged = std::any_of(row.metrics.begin(), row.metrics.end(),
                                     [](const MetricRow& m) { return m.bound || m.expectation; });
     return judged ? Shown::Pass : Shown::NoBound;
+}
+
+double excessOf(double value, double bound, const std::optional<double>& boundMin) {
+    if (boundMin && value < *boundMin)
+        return value > 0.0 ? *boundMin / value : std::numeric_limits<double>::infinity();
+    return std::isnan(value) || bound <= 0.0 ? std::numeric_limits<double>::infinity() : value / bound;
 }
 
 Shown shownOf(const MetricRow& metric) {

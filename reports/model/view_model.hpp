@@ -242,6 +242,9 @@ std::string orderText(const OrderDependent& dependent);
 std::string orderSentence(const results::CaseRow& row);
 Shown shownOf(const results::CaseRow& row);
 Shown shownOf(const results::MetricRow& metric);
+/// Ratio by which a value is beyond its bounds: value over `bound`, or below `boundMin` that over the value.
+/// Infinite for NaN, and where a bound is zero.
+double excessOf(double value, double bound, const std::optional<double>& boundMin);
 /// Scenarios, those in which the most engines fail first.
 std::vector<std::size_t> byTrouble(const ViewModel& view);
 std::vector<GatheredAudit> gatherAudit(const results::Run& run);

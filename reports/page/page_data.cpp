@@ -48,6 +48,7 @@ Json metricsJson(const CaseRow& row) {
                         {"value", number(m.value)},
                         {"at", number(m.at)},
                         {"bound", number(m.bound)},
+                        {"boundMin", number(m.boundMin)},
                         {"expectation", number(m.expectation)},
                         {"verdict", results::verdictName(m.verdict)},
                         {"note", m.note},
@@ -147,14 +148,18 @@ Json stepJson(const CaseRow& row, const results::TimingRow& step) {
 
 /// The metric that is furthest outside its bound; null where none is.
 Json worstMiss(const CaseRow& row) {
-    const auto times = [](const results::MetricRow& m) { return m.bound ? m.value / *m.bound : 0.0; };
+    const auto times = [](const results::MetricRow& m) {
+        return excessOf(m.value, m.bound.value_or(0.0), m.boundMin);
+    };
     const results::MetricRow* worst = nullptr;
     for (const auto& m : row.metrics)
         if (m.bound && m.verdict != results::Verdict::Pass && (!worst || times(m) > times(*worst)))
             worst = &m;
     if (!worst) return nullptr;
-    return {{"name", worst->name},           {"subject", worst->subject},     {"unit", worst->unit},
-            {"value", number(worst->value)}, {"bound", number(worst->bound)}, {"at", number(worst->at)}};
+    return {{"name", worst->name},           {"subject", worst->subject},
+            {"unit", worst->unit},           {"value", number(worst->value)},
+            {"bound", number(worst->bound)}, {"boundMin", number(worst->boundMin)},
+            {"at", number(worst->at)}};
 }
 
 /// Dependence on the order of insertion; null if it was run in one order.

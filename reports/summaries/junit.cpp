@@ -29,6 +29,7 @@ std::string metricLines(const CaseRow& row, Verdict verdict) {
         text += m.name + (m.subject.empty() ? "" : " of " + m.subject) + " = " + fullNumber(m.value) + " " +
                 m.unit;
         if (m.bound) text += ", bound " + fullNumber(*m.bound);
+        if (m.boundMin) text += ", lower bound " + fullNumber(*m.boundMin);
         if (m.expectation) text += ", expected " + fullNumber(*m.expectation);
         if (!m.note.empty()) text += " (" + m.note + ")";
         text += "\n";

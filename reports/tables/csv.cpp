@@ -9,11 +9,11 @@
 namespace rigor::report {
 namespace {
 
-constexpr std::size_t kColumns = 33;
+constexpr std::size_t kColumns = 34;
 constexpr const char* kHeader =
     "scenario,engine,spec,preset,precision,dt,outcome,verdict,metric,subject,kind,value,unit,at,bound,"
     "metric_verdict,note,expectation,exact,scheme_exact,grade,regression,scale,relative,ideal,recorded,"
-    "order_min,order_max,order_count,orders,orders_failed,order_dependent,command,non_finite\n";
+    "order_min,order_max,order_count,orders,orders_failed,order_dependent,bound_min,command,non_finite\n";
 
 /// The numbers of a line; those that are not finite leave their cell empty and are named at its end.
 class Numbers {
@@ -73,7 +73,8 @@ void csvReport(const results::Run& run, const std::function<void(std::string_vie
                               scale = number("scale", m.scale), relative = number("relative", m.relative),
                               ideal = number("ideal", m.ideal), recorded = number("recorded", m.recorded),
                               orderMin = number("order_min", m.orderMin),
-                              orderMax = number("order_max", m.orderMax);
+                              orderMax = number("order_max", m.orderMax),
+                              boundMin = number("bound_min", m.boundMin);
             line({m.name,
                   m.subject,
                   m.kind,
@@ -97,7 +98,8 @@ void csvReport(const results::Run& run, const std::function<void(std::string_vie
                   countText(m.orderCount),
                   countText(row.orders.run),
                   countText(row.orders.failed),
-                  dependence},
+                  dependence,
+                  boundMin},
                  number.reason());
         }
         for (const auto& q : row.quantities) {

@@ -37,7 +37,8 @@ std::string latexValue(const TableColumn& column, const TableCell& cell) {
                        : plainNumber ? latexNumber(*cell.number)
                                      : latexText(readable(column, *cell.number));
     if (!cell.verdict) return text;
-    if (cell.bound) text += " ($\\le$ " + latexNumber(*cell.bound) + ")";
+    const std::string lower = cell.boundMin ? "$\\ge$ " + latexNumber(*cell.boundMin) + ", " : "";
+    if (cell.bound) text += " (" + lower + "$\\le$ " + latexNumber(*cell.bound) + ")";
     if (*cell.verdict == Shown::Pass || *cell.verdict == Shown::NoBound) return text;
     const std::string word = latexText(shownText(*cell.verdict).word);
     return text.empty() ? word : text + " " + word;

@@ -57,20 +57,29 @@ std::string markdownValue(const TableColumn& column, const TableCell& cell) {
     if (!cell.verdict) return text;
     const ShownText shown = shownText(*cell.verdict);
     text = std::string(shown.symbol) + " " + (text.empty() ? shown.word : text);
-    if (cell.bound) text += " (≤ " + readableNumber(*cell.bound) + ")";
+    const std::string lower = cell.boundMin ? "≥ " + readableNumber(*cell.boundMin) + ", " : "";
+    if (cell.bound) text += " (" + lower + "≤ " + readableNumber(*cell.bound) + ")";
     return text;
+}
+
+bool hasLowerBound(const Table& table, std::size_t column) {
+    return std::any_of(table.rows.begin(), table.rows.end(),
+                       [&](const auto& row) { return row[column].boundMin.has_value(); });
 }
 
 }  // namespace
 
 std::string tableCsv(const Table& table) {
     std::vector<std::string> head;
+    std::vector<bool> isTwoSided;
     for (const auto& column : table.columns) {
+        isTwoSided.push_back(hasLowerBound(table, isTwoSided.size()));
         head.push_back(column.unit.empty() || column.unit == "1" ? column.title
                                                                  : column.title + " [" + column.unit + "]");
         if (column.kind == ColumnKind::Judged) {
             head.push_back(column.title + " verdict");
             head.push_back(column.title + " bound");
+            if (isTwoSided.back()) head.push_back(column.title + " lower bound");
         }
     }
     head.push_back("non_finite");
@@ -85,6 +94,8 @@ std::string tableCsv(const Table& table) {
             if (table.columns[c].kind != ColumnKind::Judged) continue;
             fields.push_back(row[c].verdict ? shownText(*row[c].verdict).word : "");
             fields.push_back(csvValue(title + " bound", TableCell(row[c].bound), reason));
+            if (isTwoSided[c])
+                fields.push_back(csvValue(title + " lower bound", TableCell(row[c].boundMin), reason));
         }
         fields.push_back(reason);
         appendCsvLine(out, fields);

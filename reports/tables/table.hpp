@@ -18,7 +18,7 @@ enum class ColumnKind {
     Number,    ///< a number in the column's unit
     Duration,  ///< [s], shown as 12.3 µs
     TimeStep,  ///< [s], shown as 1/240 s
-    Judged     ///< a number with its verdict and its bound: three columns in CSV
+    Judged     ///< a number with its verdict and its bounds: three columns in CSV, four with a lower bound
 };
 
 struct TableColumn {
@@ -37,10 +37,11 @@ struct TableCell {
     /// Counts are exact up to 2^53.
     TableCell(std::int64_t count) : number(static_cast<double>(count)) {}
 
-    std::string text;              ///< instead of a number
-    std::optional<double> number;  ///< number; may be NaN or infinite
-    std::optional<Shown> verdict;  ///< verdict of a Judged cell
-    std::optional<double> bound;   ///< bound of a Judged cell
+    std::string text;                ///< instead of a number
+    std::optional<double> number;    ///< number; may be NaN or infinite
+    std::optional<Shown> verdict;    ///< verdict of a Judged cell
+    std::optional<double> bound;     ///< bound of a Judged cell
+    std::optional<double> boundMin;  ///< lower bound of a Judged cell
 };
 
 struct Table {
@@ -51,7 +52,8 @@ struct Table {
     bool ofScenario = false;  ///< Its rows belong to one scenario: a large run has thousands of such tables.
 };
 
-/// RFC 4180 with a header line. A Judged column "x" becomes "x", "x verdict", "x bound".
+/// RFC 4180 with a header line. A Judged column "x" becomes "x", "x verdict", "x bound", and
+/// "x lower bound" where one of its cells has it.
 std::string tableCsv(const Table& table);
 /// The caption, then a GitHub table.
 std::string tableMarkdown(const Table& table);

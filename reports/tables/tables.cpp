@@ -33,6 +33,7 @@ TableCell judged(const CaseRow& row, const results::MetricRow* metric, Shown ver
     if (metric != nullptr && !lost && row.outcome == results::Outcome::Completed) {
         cell.number = metric->value;
         cell.bound = metric->bound;
+        cell.boundMin = metric->boundMin;
     }
     return cell;
 }
@@ -179,6 +180,7 @@ std::vector<Table> metricsOfScenarios(const ViewModel& view) {
                     cells.push_back(m.value);
                     if (m.bound || m.expectation) cells.back().verdict = shownOf(m);
                     cells.back().bound = m.bound;
+                    cells.back().boundMin = m.boundMin;
                 }
         }
         std::stable_sort(order.begin(), order.end(),

@@ -94,6 +94,7 @@ TEST_F(Page, HoldsEveryNumberOfTheRun) {
             for (std::size_t i = 0; i < row.metrics.size(); ++i, ++compared) {
                 expectNumber(c["metrics"][i]["value"], row.metrics[i].value, row.id);
                 expectOptional(c["metrics"][i]["bound"], row.metrics[i].bound, row.id);
+                expectOptional(c["metrics"][i]["boundMin"], row.metrics[i].boundMin, row.id);
                 expectOptional(c["metrics"][i]["expectation"], row.metrics[i].expectation, row.id);
             }
             ASSERT_EQ(c["quantities"].size(), row.quantities.size());

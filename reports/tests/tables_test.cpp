@@ -142,6 +142,21 @@ TEST(Table, CsvKeepsEveryBitAndEveryVerdict) {
     EXPECT_EQ(rows[4][1], "123456");
 }
 
+TEST(Table, ALowerBoundIsShownBesideTheUpper) {
+    Table table = sample();
+    table.rows[0][4].boundMin = 0.125;
+    const auto rows = parseCsv(tableCsv(table));
+    EXPECT_EQ(rows[0][7], "ode matched lower bound");
+    expectBits(rows[1][6], 0.25);
+    expectBits(rows[1][7], 0.125);
+    EXPECT_EQ(rows[2][7], "");
+    EXPECT_EQ(rows[2][8], "value is not a number");
+    EXPECT_NE(tableMarkdown(table).find("✗ 0.3 (≥ 0.125, ≤ 0.25) |"), std::string::npos);
+    const std::string tex = tableLatex(table);
+    EXPECT_EQ(latexFault(tex), "") << tex;
+    EXPECT_NE(tex.find("$0.3$ ($\\ge$ $0.125$, $\\le$ $0.25$) fail"), std::string::npos) << tex;
+}
+
 TEST(Table, MarkdownIsATable) {
     const auto lines = linesOf(tableMarkdown(sample()));
     ASSERT_EQ(lines.size(), 8u);

@@ -53,6 +53,7 @@ TEST(Csv, EveryNumberComesBackWithItsBits) {
             EXPECT_EQ(field("subject"), m.subject);
             number("value", m.value);
             number("bound", m.bound);
+            number("bound_min", m.boundMin);
             number("expectation", m.expectation);
             EXPECT_EQ(field("metric_verdict"), results::verdictName(m.verdict));
             EXPECT_EQ(field("note"), m.note);

@@ -153,6 +153,16 @@ TEST(ViewModel, ARunOfManyScenariosHasAShortTitle) {
     EXPECT_EQ(verdictSentence(ViewModel(run)), "a b c and 2 more: no case is red");
 }
 
+TEST(ViewModel, ARunOfUnsupportedCasesAloneIsNotCalledGreen) {
+    results::Run run = twoScenarios();
+    run.suite = "mine";
+    run.cases = {makeCase("a", "one", 0.01, 1.0), makeCase("a", "two", 0.01, 1.0)};
+    run.cases[0].verdict = Verdict::Unsupported;
+    EXPECT_EQ(verdictSentence(ViewModel(run)), "mine: no case is red");
+    run.cases[1].verdict = Verdict::Unsupported;
+    EXPECT_EQ(verdictSentence(ViewModel(run)), "mine: nothing was judged, every case is unsupported");
+}
+
 TEST(ViewModel, SentencesSayWhatWasComparedWithWhat) {
     CaseRow c = makeCase("a", "one", 1.0 / 60.0, 0.2);
     EXPECT_EQ(accuracySentence(c),
@@ -365,9 +375,13 @@ TEST(ViewModel, AnOffenderBelowItsLowerBoundSaysSo) {
     run.cases[0].verdict = Verdict::Fail;
     run.cases[0].metrics[0].verdict = Verdict::Fail;
     run.cases[0].metrics[0].note = "less than its lower bound 0.9";
+    run.cases[0].metrics[0].boundMin = 0.9;
     const ViewModel view(run);
     ASSERT_EQ(view.offenders().size(), 1u);
     EXPECT_EQ(view.offenders()[0].text, "error 0.5 m, less than its lower bound 0.9");
+    EXPECT_DOUBLE_EQ(view.offenders()[0].excess, 0.9 / 0.5);
+    EXPECT_EQ(excessOf(0.0, 1.0, 0.9), std::numeric_limits<double>::infinity());
+    EXPECT_DOUBLE_EQ(excessOf(3.0, 2.0, 0.9), 1.5);
 }
 
 TEST(ViewModel, LedgerGathersEqualLinesOverScenarios) {

@@ -37,6 +37,7 @@ void eachField(Row& m, Use&& use) {
     use("order_min", m.orderMin, 9);
     use("order_max", m.orderMax, 9);
     use("order_count", m.orderCount, 9);
+    use("bound_min", m.boundMin, 15);
 }
 
 template <RowOf<QuantityRow> Row, class Use>

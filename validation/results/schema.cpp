@@ -43,7 +43,7 @@ CREATE TABLE cases (
 CREATE TABLE metrics (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, subject TEXT, unit TEXT, kind TEXT,
     value, at, bound, expectation, verdict TEXT, note TEXT, scale, relative_error, ideal_error, recorded,
-    non_finite TEXT, order_min, order_max, order_count INTEGER, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+    non_finite TEXT, order_min, order_max, order_count INTEGER, bound_min, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE quantities (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, unit TEXT, exact, scheme_exact,
     measured, non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
@@ -127,6 +127,8 @@ ALTER TABLE cases ADD COLUMN order_dependent TEXT DEFAULT '';
 
 constexpr const char* kColumnsOfSchema11 = "ALTER TABLE audit ADD COLUMN findings TEXT DEFAULT ''";
 
+constexpr const char* kColumnsOfSchema15 = "ALTER TABLE metrics ADD COLUMN bound_min";
+
 /// Tables with measured numbers: since schema 8 each says which of a row are not finite. A table that an
 /// older file gets whole has the column already.
 constexpr const char* kTablesWithNumbers[] = {
@@ -182,6 +184,7 @@ void upgrade(SQLite::Database& database) {
     if (version < 9) database.exec(kColumnsOfSchema9);
     if (version < 10) database.exec(kColumnsOfSchema10);
     if (version < 11) database.exec(kColumnsOfSchema11);
+    if (version < 15) database.exec(kColumnsOfSchema15);
     if (version < kFirstSchemaWithSharedLists) {
         shareLists(database);
         database.exec("DROP INDEX IF EXISTS metrics_by_name");

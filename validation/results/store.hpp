@@ -15,7 +15,7 @@
 
 namespace rigor::results {
 
-inline constexpr int kSchemaVersion = 14;
+inline constexpr int kSchemaVersion = 15;
 
 /// True if the folder has a store. A run that stopped before it had tables leaves an empty file, or one that becomes empty
 /// when its journal is played back; these are none.

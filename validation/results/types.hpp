@@ -53,6 +53,7 @@ struct MetricRow {
     /// included, and how many of them have a value; none where no other order has one (`--orders`).
     std::optional<double> orderMin = std::nullopt, orderMax = std::nullopt;
     std::optional<std::int64_t> orderCount = std::nullopt;
+    std::optional<double> boundMin = std::nullopt;  ///< lower bound of the value, where the scenario sets one
 };
 
 /// The worst relative error over the metrics that the scenario names: what its grade rests on.

@@ -131,6 +131,7 @@ void judgeMetric(MetricRow& row, const Scenario& scenario, const CaseRow& judged
     if (bound == nullptr) bound = boundEverywhere(row.name);
     const auto* known = deviationFor(scenario, judged.engine, judged.preset, row.name);
     if (bound != nullptr) row.bound = boundAt(*bound, scenario, judged.dt);
+    if (bound != nullptr && std::isfinite(bound->min)) row.boundMin = bound->min;
     if (known != nullptr && std::isfinite(known->max)) row.expectation = known->max;
     const bool isBelow = bound != nullptr && row.value < bound->min;
     const bool misses = bound != nullptr && (isBelow || !(row.value <= *row.bound));  // true for NaN
@@ -170,6 +171,12 @@ bool runIsGreen(const results::Run& run) {
 bool lacksReferencesAlone(const results::Run& run) {
     return std::none_of(run.cases.begin(), run.cases.end(), results::isRed) &&
            std::any_of(run.cases.begin(), run.cases.end(), lacksReference);
+}
+
+bool judgesNothing(const results::Run& run) {
+    return !run.cases.empty() && std::all_of(run.cases.begin(), run.cases.end(), [](const CaseRow& c) {
+        return c.verdict == Verdict::Unsupported;
+    });
 }
 
 void judgeWithoutReference(CaseRow& row, const ReferenceCheck& check) {

@@ -57,6 +57,7 @@ void addMetricsOfOthers(CaseRow& row, const std::vector<OrderEnd>& others) {
             absent.kind = metric.kind;
             absent.value = std::nan("");
             absent.bound = metric.bound;
+            absent.boundMin = metric.boundMin;
             absent.scale = metric.scale;
             absent.note = why;
             row.metrics.push_back(absent);

@@ -120,5 +120,7 @@ LiveCase runInProcess(const scenario::Scenario& scenario, const adapter::EngineS
 bool runIsGreen(const results::Run& run);
 /// True if the run is not green for no other reason than references that could not be computed.
 bool lacksReferencesAlone(const results::Run& run);
+/// True if the run has cases, all of them unsupported: it shows nothing, good or bad.
+bool judgesNothing(const results::Run& run);
 
 }  // namespace rigor::validation

@@ -58,7 +58,8 @@ def find_program() -> str:
 def call(arguments: Sequence[str], progress: ProgressOption = False, cwd: Optional[Path] = None) -> tuple[Any, bool]:
     """Runs ``rigor ARGUMENTS``; its JSON, and whether it ended green. Ctrl-C is passed on, and what has ended stays stored.
 
-    Raises BadCommand for exit code 2, KeyboardInterrupt for 130, CommandFailed for all others but 0 and 1.
+    Raises BadCommand for exit code 2, KeyboardInterrupt for 130, CommandFailed for all others but 0 and 1, and but 4 of
+    ``validate``: every case is unsupported, which the run that is stored says of each.
     """
     command = [find_program(), *arguments]
     child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, cwd=cwd)
@@ -87,7 +88,7 @@ def _judge(output: bytes, code: int, messages: list[str], arguments: Sequence[st
         raise KeyboardInterrupt(said)
     if code == 2:
         raise BadCommand(said)
-    if code not in (0, 1):
+    if code not in (0, 1) and not (code == 4 and arguments[0] == "validate"):
         raise CommandFailed(said, code)
     try:
         return json.loads(output), code == 0

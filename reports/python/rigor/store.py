@@ -21,7 +21,7 @@ import pandas as pd
 from .errors import DamagedStore, NewerFormat, NotARun
 
 #: The newest schema of results.sqlite that this package knows (validation/results/store.hpp).
-NEWEST_SCHEMA = 14
+NEWEST_SCHEMA = 15
 
 _APPLICATION_ID = 0x52494752
 _LISTS = {"isolates", "tags", "observed", "metrics", "time_steps", "findings"}

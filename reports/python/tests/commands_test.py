@@ -49,6 +49,11 @@ class Validate(unittest.TestCase):
         with self.assertRaisesRegex(rigor.BadCommand, "holds a run already"):
             rigor.validate("slide_and_stop", engines="rigor", out=made_run().folder, progress=False)
 
+    def test_a_run_of_which_nothing_is_supported_comes_back_and_is_not_green(self) -> None:
+        run = rigor.validate(BALL, engines="box2d", out=temporary_folder() / "flat", progress=False)
+        self.assertFalse(run.green)
+        self.assertEqual(set(run.cases["verdict"]), {"unsupported"})
+
     def test_an_error_of_the_caller_s_progress_comes_back(self) -> None:
         def stop(step: rigor.Progress) -> None:
             raise RuntimeError(f"seen {step.done}")

@@ -240,7 +240,9 @@ TEST(BenchStore, ADamagedCaseIsRepeatedAndTheOthersStay) {
 }
 
 TEST(BenchStore, AStoreWithoutChecksumsGetsThemWhenItIsGoneOnWith) {
-    DamagedBench old("DELETE FROM seals WHERE name LIKE 'bench%'; PRAGMA user_version = 13");
+    DamagedBench old(
+        "DELETE FROM seals WHERE name LIKE 'bench%'; ALTER TABLE metrics DROP COLUMN bound_min; PRAGMA "
+        "user_version = 13");
     EXPECT_TRUE(old.read().damage.empty());
     EXPECT_EQ(old.read().bench.cases.size(), 2u);
     (void)old.resumed();

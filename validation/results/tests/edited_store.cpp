@@ -17,7 +17,12 @@ bool isChange(const std::string& statement) {
 
 }  // namespace
 
+void takeBackLowerBounds(SQLite::Database& database) {
+    database.exec("ALTER TABLE metrics DROP COLUMN bound_min");
+}
+
 void takeBackSharedLists(SQLite::Database& database) {
+    takeBackLowerBounds(database);
     for (const std::string name : {"settings", "ledger", "read_back"}) {
         database.exec("CREATE TABLE own AS SELECT * FROM " + name);
         database.exec("DROP VIEW " + name);

@@ -11,6 +11,9 @@
 
 namespace rigor::results::sample {
 
+/// Gives a store the tables of schema 14, in which metrics have no lower bounds.
+void takeBackLowerBounds(SQLite::Database& database);
+
 /// Gives a store the tables of schema 12, in which every case has its settings, ledger and read-back to itself.
 void takeBackSharedLists(SQLite::Database& database);
 

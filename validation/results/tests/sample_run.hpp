@@ -72,6 +72,7 @@ inline CaseRow caseRow(const std::string& id, std::int64_t position) {
     c.metrics[0].orderMin = 0.1;
     c.metrics[0].orderMax = kInf;
     c.metrics[0].orderCount = 5;
+    c.metrics[0].boundMin = 0.1 + 0.2;
     c.orders = {5,
                 4,
                 Grade::C,

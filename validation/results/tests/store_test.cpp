@@ -47,6 +47,7 @@ void expectSameMeasured(const CaseRow& a, const CaseRow& b) {
         expectSame("value", m.value, n.value);
         expectSame("at", m.at, n.at);
         expectSame("bound", m.bound, n.bound);
+        expectSame("bound_min", m.boundMin, n.boundMin);
         expectSame("expectation", m.expectation, n.expectation);
         expectSame("scale", m.scale, n.scale);
         expectSame("relative", m.relative, n.relative);
@@ -487,7 +488,7 @@ TEST(Store, OfSchema8HasEverythingButOrdersOfInsertion) {
     expected.audit.at(0).findings = "";
     expected.orders = {};
     for (MetricRow& m : expected.metrics) {
-        m.orderMin = m.orderMax = {};
+        m.orderMin = m.orderMax = m.boundMin = {};
         m.orderCount = {};
     }
     expectSame(expected, readRun(folder.path()).cases.at(0));
@@ -515,6 +516,7 @@ TEST(Store, OfSchema9HasEverythingButVerdictsOfOrders) {
     expected.orders.failed = {};
     expected.orders.verdicts = "";
     expected.orders.dependence = OrderDependence::Unknown;
+    expected.metrics.at(0).boundMin = {};
     expectSame(expected, readRun(folder.path()).cases.at(0));
     EXPECT_EQ(orderDependence(readRun(folder.path()).cases.at(0)), OrderDependence::Verdict)
         << "one of its orders did not complete";
@@ -523,29 +525,32 @@ TEST(Store, OfSchema9HasEverythingButVerdictsOfOrders) {
     expectSame(caseRow("b", 1), readRun(folder.path()).cases.at(1));
 }
 
-TEST(Store, OfSchema12HasListsOfEveryCase) {
-    const TemporaryFolder folder;
-    {
-        RunWriter writer(folder.path(), false);
-        writer.writeHeader(header());
-        for (const int i : {0, 1}) writer.writeCase(caseRow(std::to_string(i), i));
+/// A store of schema 12 has lists of every case; before 15 there are no lower bounds.
+TEST(Store, OfSchemas12And14LacksLowerBoundsAlone) {
+    for (const int version : {12, 14}) {
+        const TemporaryFolder folder;
+        {
+            RunWriter writer(folder.path(), false);
+            writer.writeHeader(header());
+            for (const int i : {0, 1}) writer.writeCase(caseRow(std::to_string(i), i));
+            SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+            (version < 13 ? sample::takeBackSharedLists : sample::takeBackLowerBounds)(database);
+            for (const char* id : {"0", "1"}) sealCase(database, id);
+            database.exec("PRAGMA user_version = " + std::to_string(version));
+        }
+        for (const int read : {version, kSchemaVersion}) {
+            const auto run = readRun(folder.path());
+            EXPECT_EQ(run.schemaVersion, read);
+            EXPECT_THAT(run.damage, testing::IsEmpty());
+            ASSERT_EQ(run.cases.size(), 2u);
+            for (const int i : {0, 1}) {
+                CaseRow expected = caseRow(std::to_string(i), i);
+                expected.metrics.at(0).boundMin = {};
+                expectSame(expected, run.cases[i]);
+            }
+            { RunWriter(folder.path(), true); }
+        }
     }
-    {
-        SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
-        sample::takeBackSharedLists(database);
-        for (const char* id : {"0", "1"}) sealCase(database, id);
-        database.exec("PRAGMA user_version = 12");
-    }
-    const auto expectAll = [&](int version) {
-        const auto run = readRun(folder.path());
-        EXPECT_EQ(run.schemaVersion, version);
-        EXPECT_THAT(run.damage, testing::IsEmpty());
-        ASSERT_EQ(run.cases.size(), 2u);
-        for (const int i : {0, 1}) expectSame(caseRow(std::to_string(i), i), run.cases[i]);
-    };
-    expectAll(12);
-    { RunWriter(folder.path(), true); }
-    expectAll(kSchemaVersion);
 }
 
 int countIn(const TemporaryFolder& folder, const std::string& table) {

@@ -49,6 +49,7 @@ TEST_P(MetricVerdicts, FollowTheTable) {
     judgeMetric(row, judged(), judgedCase);
     EXPECT_STREQ(results::verdictName(row.verdict), results::verdictName(c.verdict));
     const bool isBelow = std::string(c.metric) == "between" && c.value < 1.0;
+    EXPECT_EQ(row.boundMin, std::string(c.metric) == "between" ? std::optional(1.0) : std::nullopt);
     EXPECT_EQ(row.note, isBelow                                ? "less than its lower bound 1"
                         : c.verdict == Verdict::KnownDeviation ? "a skin"
                                                                : "");
@@ -204,6 +205,18 @@ TEST(Green, IsWhatTheExitCodeSays) {
     }
     EXPECT_TRUE(green("ode", Verdict::KnownDeviation));
     EXPECT_FALSE(green(kInHouseEngine, Verdict::KnownDeviation)) << "it may not excuse itself";
+}
+
+TEST(Green, ARunOfUnsupportedCasesAloneJudgesNothing) {
+    results::Run run;
+    EXPECT_FALSE(judgesNothing(run));
+    run.cases.resize(2);
+    for (auto& c : run.cases) c.verdict = Verdict::Unsupported;
+    EXPECT_TRUE(judgesNothing(run));
+    for (const auto verdict : {Verdict::Pass, Verdict::Fail, Verdict::Crashed, Verdict::NoReference}) {
+        run.cases[1].verdict = verdict;
+        EXPECT_FALSE(judgesNothing(run));
+    }
 }
 
 TEST(Green, TheInHouseEngineMayNotBecomeWorseAndOthersMayNotLoseAGrade) {

@@ -32,6 +32,12 @@ export function tick(value: number): string {
   return minus(far ? short.toExponential().replace('e+', 'e') : String(short));
 }
 
+/** "≤ 2", or with a lower bound "≥ 1, ≤ 2". */
+export function boundsText(bound: Maybe, boundMin: Maybe | undefined, shown: (value: Maybe) => string): string {
+  const lower = boundMin === null || boundMin === undefined ? '' : `≥ ${shown(boundMin)}, `;
+  return `${lower}≤ ${shown(bound)}`;
+}
+
 /** All digits: parses back to the stored bits. */
 export const full = (value: Maybe | undefined): string =>
   value === null || value === undefined ? 'no value' : String(value);

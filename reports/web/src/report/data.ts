@@ -125,6 +125,7 @@ export interface Miss {
   unit: string;
   value: Stored;
   bound: Stored;
+  boundMin?: Maybe; // lower bound; null: none
   at: Stored; // [s]; < 0 unknown
 }
 
@@ -388,6 +389,7 @@ export interface Metric {
   value: Stored;
   at: Maybe; // [s] of the largest contribution; < 0 unknown
   bound: Maybe;
+  boundMin?: Maybe; // lower bound; null: none
   expectation: Maybe;
   verdict: string;
   note: string;

@@ -12,10 +12,11 @@ import { brokenLinks, externalRequests, structureOf, translationErrors } from '.
 import { commandOf, readExercise, readSceneFence } from '../../src/handbook/site/fences.ts';
 import { readGallery } from '../../src/handbook/site/gallery.ts';
 import { sceneHtml, shown, shownIn } from '../../src/handbook/site/layout.ts';
-import { renderPage } from '../../src/handbook/site/markup.ts';
+import { coloured, renderPage } from '../../src/handbook/site/markup.ts';
 import { chineseKinds, chineseMetrics } from '../../src/handbook/site/metric_titles.ts';
 import { findQuote, readQuote } from '../../src/handbook/site/quotes.ts';
 import { overridden, scenarioFile } from '../../src/handbook/site/record.ts';
+import { reflowed } from '../../src/handbook/site/reference.ts';
 import { makeSite } from '../../src/handbook/site/site.ts';
 
 const root = process.env.RIGOR_SOURCE_DIR as string;
@@ -119,28 +120,60 @@ test('fences are read', () => {
   assert.throws(() => readExercise('Do.\n--- judge\n./j'), /has a text/);
 });
 
+/** The surroundings of a page that has no others. */
+const plain = {
+  readSource: () => 'f() {\n}\n',
+  siteRoot: '',
+  sourceLink: () => '#',
+  sceneHtml: () => '',
+  metric: (name: string) => (name === 'm' ? { href: 'h', title: 't' } : null),
+  words: { exercise: '', judge: '', look: '', answer: '', copy: '' },
+};
+
 test('the structure of a page notices what a translation lacks', () => {
-  const context = {
-    readSource: () => 'f() {\n}\n',
-    siteRoot: '',
-    sourceLink: () => '#',
-    sceneHtml: () => '',
-    metric: (name: string) => (name === 'm' ? { href: 'h', title: 't' } : null),
-    words: { exercise: '', judge: '', look: '', answer: '', copy: '' },
-  };
   const source =
     '# T\n\n$x$ text\n\n```math\nx = \\text{one}\n```\n\n```quote f.cpp\nfrom: f()\n```\n\n```sh\n./rigor a  # note\n```\n';
-  const page = renderPage(source, context);
+  const page = renderPage(source, plain);
   assert.equal(page.title, 'T');
-  assert.match(
-    renderPage('`m` and `n`', context).html,
-    /<a href="h" title="t"><code>m<\/code><\/a> and <code>n<\/code>/,
-  );
+  assert.match(renderPage('`m` and `n`', plain).html, /<a href="h" title="t"><code>m<\/code><\/a> and <code>n<\/code>/);
   assert.equal(page.inlineFormulas, 1);
   assert.deepEqual(structureOf(page).commands, ['./rigor a']);
-  assert.deepEqual(structureOf(renderPage(source.replace('one', '一'), context)), structureOf(page));
+  assert.deepEqual(structureOf(renderPage(source.replace('one', '一'), plain)), structureOf(page));
   for (const lost of ['# T', '```math\nx = \\text{one}\n```', '```quote f.cpp\nfrom: f()\n```', './rigor a'])
-    assert.notDeepEqual(structureOf(renderPage(source.replace(lost, ''), context)), structureOf(page), lost);
+    assert.notDeepEqual(structureOf(renderPage(source.replace(lost, ''), plain)), structureOf(page), lost);
+});
+
+test('no line of a page ends inside an option or begins with the comma behind a formula', () => {
+  const html = (text: string) => renderPage(text, plain).html;
+  assert.match(coloured('./rigor run a --set b=1', 'sh'), /<span class="option">--set<\/span> b=1/);
+  assert.match(
+    html('the option `--without actuators`'),
+    /<code><span class="option">--without<\/span> actuators<\/code>/,
+  );
+  assert.match(
+    html('设 $n$，则（$m$）'),
+    /设 <span class="held"><span class="katex">.*<\/span>，<\/span>则<span class="held">（<span/,
+  );
+  const long = html(`是 $J = (-n,\\ -r_A \\times n,\\ n,\\ r_B \\times n)$，即`);
+  assert.doesNotMatch(long, /held|\ue000|\ue001/);
+  assert.doesNotMatch(
+    html('# 长度 $l$\n\n```exercise\n求 $x$。\n--- look\na\n--- answer\na\n--- solution\n$1$\n```'),
+    /[\ue000\ue001]/,
+  );
+});
+
+test('what a reader copies has a button, and commands are wrapped', () => {
+  const html = (lang: string) => renderPage(`\`\`\`${lang}\n{}\n\`\`\``, plain).html;
+  for (const lang of ['sh', 'json', 'python']) assert.match(html(lang), /<button type="button" class="copy">/, lang);
+  assert.doesNotMatch(html('text'), /<button/);
+  for (const lang of ['sh', 'text']) assert.match(html(lang), /class="code commands"/, lang);
+});
+
+test('long lines of a help text are broken below their explanation', () => {
+  const help = 'Usage: a\n  --out TEXT      one two three four\n';
+  assert.equal(reflowed(help, 28), 'Usage: a\n  --out TEXT      one two\n                  three four\n');
+  assert.equal(reflowed('one two three', 8), 'one two\nthree');
+  assert.equal(reflowed(help, 80), help);
 });
 
 test('checks of links and requests find what is wrong', () => {

@@ -3,7 +3,17 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { newCursor } from '../../src/common/cursor.ts';
-import { angle, duration, format, median, ratio, shortCommand, timeStep, toNumber } from '../../src/common/format.ts';
+import {
+  angle,
+  boundsText,
+  duration,
+  format,
+  median,
+  ratio,
+  shortCommand,
+  timeStep,
+  toNumber,
+} from '../../src/common/format.ts';
 import { fileOf, placeCases } from '../../src/report/case_files.ts';
 import { cellOf, errorOf, gradeOf, logPlace, relativeOf, severity } from '../../src/report/cells.ts';
 import { barScale } from '../../src/report/charts/bars.ts';
@@ -94,6 +104,13 @@ const brief = (spec: string, value: number, more: Partial<BriefCase> = {}): Brie
   ...more,
 });
 const scenario = (name: string, cases: BriefCase[]) => ({ name, reference: 'exact', cases }) as unknown as Scenario;
+
+test('bounds are shown on both sides', () => {
+  assert.equal(boundsText(0.01, null, format), '≤ 0.01');
+  assert.equal(boundsText(0.01, undefined, format), '≤ 0.01');
+  assert.equal(boundsText(0.01, 0.009, format), '≥ 0.009, ≤ 0.01');
+  assert.equal(boundsText('inf', 0, format), '≥ 0, ≤ ∞');
+});
 
 test('a cell is the worst of its time steps, with the numbers of the finest', () => {
   const s = scenario('a', [brief('x', 0.25), brief('x', 2, { dt: 0.1, shown: 'fail' }), brief('y', 1)]);

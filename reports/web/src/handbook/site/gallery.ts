@@ -8,7 +8,7 @@ import { existsSync, mkdirSync, readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Json } from '../../replay/json.ts';
 import type { Language } from './contents.ts';
-import { escaped } from './markup.ts';
+import { escaped, withOptions } from './markup.ts';
 import { scenarioFile } from './record.ts';
 import { referenceWords } from './reference_words.ts';
 import { type GeneratedPage, versionOf } from './site.ts';
@@ -58,7 +58,7 @@ export function galleryPage(root: string, program: string, folder: string, langu
     const scenario = JSON.parse(readFileSync(source, 'utf8')) as Json;
     const command = `./rigor ${drawing(picture, picture.scenario, name).join(' ')}`;
     const title = escaped(language === 'zh' ? picture.zh : scenario.title);
-    return `<article class="card"><img src="../pictures/${name}" alt="${title}"><div class="below"><h2>${title}</h2><p class="muted"><a href="reference/scenarios.html#${picture.scenario}"><code>${picture.scenario}</code></a>, ${escaped(picture.engine)}, ${picture.at} s</p><details><summary>${w.command}</summary><code>${escaped(command)}</code></details></div></article>`;
+    return `<article class="card"><img src="../pictures/${name}" alt="${title}"><div class="below"><h2>${title}</h2><p class="muted"><a href="reference/scenarios.html#${picture.scenario}"><code>${picture.scenario}</code></a> · ${escaped(picture.engine)} · ${picture.at} s</p><details><summary>${w.command}</summary><code>${withOptions(escaped(command))}</code></details></div></article>`;
   });
   const report = existsSync(join(folder, '../report/index.html'))
     ? `<p><a href="../report/index.html">${w.report}</p>`

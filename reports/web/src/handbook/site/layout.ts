@@ -5,7 +5,7 @@
 // of the site.
 import { type Language, words } from './contents.ts';
 import { commandOf, type SceneFence } from './fences.ts';
-import { coloured, escaped } from './markup.ts';
+import { codeBlock, coloured, escaped } from './markup.ts';
 import { chineseMetrics, chineseUnits } from './metric_titles.ts';
 import type { RunResult } from './record.ts';
 
@@ -128,7 +128,7 @@ export function sceneHtml(scene: SceneFence, results: (RunResult | null)[], path
 <div class="panels" style="--count:${scene.sides.length}">${panels.join('')}</div>
 <noscript><p class="muted">${w.noScript}</p></noscript>
 <div class="controls">${button('play', w.play, icon('M7 4v16l13-8z', 'start'), icon('M6 4h4v16H6zM14 4h4v16h-4z', 'pause'))}${button('back', w.back, icon('M18 5v14l-10-7zM5 5h2.5v14H5z', ''))}${button('next', w.next, icon('M6 5v14l10-7zM16.500 5H19v14h-2.500z', ''))}<input type="range" min="0" max="1" value="0" step="any" aria-label="${w.time}"><output>0.00 s</output></div>
-<figcaption>${escaped(scene.caption)}<details><summary>${w.commands}</summary><div class="code"><pre tabindex="0"><code class="hljs">${coloured(commands, 'sh')}</code></pre></div></details></figcaption>
+<figcaption>${escaped(scene.caption)}<details><summary>${w.commands}</summary>${codeBlock(commands, 'sh', w.copy)}</details></figcaption>
 </figure>
 `;
 }

@@ -52,9 +52,16 @@ export interface MarkupContext {
 export const escaped = (text: string): string =>
   text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;').replace(/"/g, '&quot;');
 
+/** Options of a command, in HTML: "--" is not parted from its word at the end of a line. */
+export const withOptions = (html: string): string =>
+  html.replace(/(^|\s)(--?[a-z][\w-]*)/g, '$1<span class="option">$2</span>');
+
 export function coloured(text: string, lang: string): string {
   const name = lang === 'sh' ? 'bash' : lang;
-  return hljs.getLanguage(name) ? hljs.highlight(text, { language: name }).value : escaped(text);
+  if (!hljs.getLanguage(name)) return lang === 'text' ? withOptions(escaped(text)) : escaped(text);
+  const html = hljs.highlight(text, { language: name }).value;
+  // "--set" is an option, not the shell's built-in "set".
+  return lang === 'sh' ? withOptions(html.replace(/(--?)<span class="hljs-built_in">([\w-]+)<\/span>/g, '$1$2')) : html;
 }
 
 const tex = (text: string, displayMode: boolean) =>
@@ -68,9 +75,25 @@ const tex = (text: string, displayMode: boolean) =>
 
 const inlineMath = /^\$((?:\\.|[^$\n\\])+)\$/;
 
-function codeBlock(text: string, lang: string, words: MarkupContext['words']): string {
-  const copy = lang === 'sh' ? `<button type="button" class="copy">${escaped(words.copy)}</button>` : '';
-  return `<div class="code"><pre tabindex="0"><code class="hljs">${coloured(text, lang)}</code></pre>${copy}</div>\n`;
+/** A formula of the text that is short enough to stay on one line with the punctuation beside it. */
+const longestHeld = 32;
+const [heldFrom, heldTo] = ['\ue000', '\ue001'];
+
+/** A browser breaks lines on both sides of a formula, so that a line would begin with a comma. */
+const withHeld = (html: string): string =>
+  html.replace(
+    new RegExp(`([（(“]?)${heldFrom}([^${heldTo}]*)${heldTo}([，。；：、）！？”,.;:)]{0,2})`, 'g'),
+    (_, before: string, formula: string, after: string) =>
+      before || after ? `<span class="held">${before}${formula}${after}</span>` : formula,
+  );
+
+/** Languages of fences that a reader copies into a terminal or a file. */
+const copied = ['sh', 'json', 'python'];
+
+export function codeBlock(text: string, lang: string, copyWord: string): string {
+  const copy = copied.includes(lang) ? `<button type="button" class="copy">${escaped(copyWord)}</button>` : '';
+  const kind = lang === 'sh' || lang === 'text' ? 'code commands' : 'code';
+  return `<div class="${kind}"><pre tabindex="0"><code class="hljs">${coloured(text, lang)}</code></pre>${copy}</div>\n`;
 }
 
 function quoteHtml(quote: Quote, context: MarkupContext): string {
@@ -101,8 +124,8 @@ export function renderPage(source: string, context: MarkupContext): Page {
     page.exercises.push(fence);
     const number = page.exercises.length;
     return `<section class="exercise"><h3>${escaped(words.exercise)} ${number}</h3>${marked.parse(fence.text)}
-<p class="judge">${escaped(fence.isJudged ? words.judge : words.look)}</p>${codeBlock(fence.command, 'sh', words)}
-<details><summary>${escaped(words.answer)}</summary>${codeBlock(fence.answer.join('\n'), 'sh', words)}${marked.parse(fence.solution)}</details></section>\n`;
+<p class="judge">${escaped(fence.isJudged ? words.judge : words.look)}</p>${codeBlock(fence.command, 'sh', words.copy)}
+<details><summary>${escaped(words.answer)}</summary>${codeBlock(fence.answer.join('\n'), 'sh', words.copy)}${marked.parse(fence.solution)}</details></section>\n`;
   };
 
   const special: Record<string, (rest: string, body: string) => string> = {
@@ -136,20 +159,22 @@ export function renderPage(source: string, context: MarkupContext): Page {
         },
         renderer: (token) => {
           ++page.inlineFormulas;
-          return tex((token as Tokens.Generic).text as string, false);
+          const text = (token as Tokens.Generic).text as string;
+          const html = tex(text, false);
+          return text.length <= longestHeld ? heldFrom + html + heldTo : html;
         },
       },
     ],
     renderer: {
       heading({ tokens, depth }) {
-        const html = this.parser.parseInline(tokens);
+        const html = withHeld(this.parser.parseInline(tokens));
         const id = `s${page.headings.length}`;
         page.headings.push({ level: depth, id, html });
         return `<h${depth} id="${id}">${html}</h${depth}>\n`;
       },
       codespan({ text }) {
         const metric = context.metric(text);
-        const code = `<code>${escaped(text)}</code>`;
+        const code = `<code>${withOptions(escaped(text))}</code>`;
         if (!metric) return code;
         return `<a href="${metric.href}"${metric.title ? ` title="${escaped(metric.title)}"` : ''}>${code}</a>`;
       },
@@ -171,11 +196,11 @@ export function renderPage(source: string, context: MarkupContext): Page {
         if (kind === 'sh')
           page.commands.push(...text.split('\n').filter((line) => /^([A-Z_]+=\S+ )*\.\/rigor\b/.test(line)));
         page.code.push({ lang: lang ?? '', text });
-        return codeBlock(text, kind, context.words);
+        return codeBlock(text, kind, context.words.copy);
       },
     },
   });
-  page.html = marked.parse(source, { async: false });
+  page.html = withHeld(marked.parse(source, { async: false }));
   page.title = (page.headings[0]?.html ?? '').replace(/<[^>]+>/g, '');
   return page;
 }

@@ -95,9 +95,9 @@ function scenarios(program: string, language: Language): GeneratedPage {
   const entries = list(program, 'scenarios').map((s) => {
     const facts = [...w.sceneFacts(s.dimension, s.bodies, s.duration), ...(s.isolates ?? [])];
     const reference = s.reference
-      ? `<p class="muted">${w.reference}: <a href="references.html#${escaped(s.reference)}"><code>${escaped(s.reference)}</code></a></p>`
+      ? `<p class="muted">${w.reference}${w.colon}<a href="references.html#${escaped(s.reference)}"><code>${escaped(s.reference)}</code></a></p>`
       : '';
-    return entry(s.name, s.name, paragraph(s.title) + paragraph(facts.join(', '), 'muted') + reference);
+    return entry(s.name, s.name, paragraph(s.title) + paragraph(facts.join(w.comma), 'muted') + reference);
   });
   return page(language, 'scenarios', w.scenarios, filter(language) + entries.join(''));
 }
@@ -123,7 +123,7 @@ function algorithms(program: string, language: Language): GeneratedPage {
 function engineOptions(options: Json[], columns: readonly string[]): string {
   const rows = options.map((o) => {
     const values = o.values ? o.values.join(', ') : o.range ? `${o.range[0]} … ${o.range[1]}` : '';
-    return `<tr data-entry><td><code>${escaped(String(o.key))}</code></td><td>${escaped(String(o.default ?? ''))}</td><td>${escaped(String(o.matched ?? ''))}</td><td>${escaped(String(o.help ?? ''))}<br><span class="muted">${escaped(values)}</span></td></tr>`;
+    return `<tr data-entry><td><code>${escaped(String(o.key))}</code></td><td data-title="${columns[1]}">${escaped(String(o.default ?? ''))}</td><td data-title="${columns[2]}">${escaped(String(o.matched ?? ''))}</td><td>${escaped(String(o.help ?? ''))}<br><span class="muted">${escaped(values)}</span></td></tr>`;
   });
   return `<div class="table settings" tabindex="0"><table><thead><tr>${columns.map((c) => `<th>${c}</th>`).join('')}</tr></thead><tbody>${rows.join('')}</tbody></table></div>`;
 }
@@ -132,7 +132,7 @@ function specs(program: string, language: Language): GeneratedPage {
   const w = referenceWords[language];
   const engines = list(program, 'engines').filter((e) => !e.problem);
   const parts = engines.map((e) => {
-    const facts = w.facts(e.version, (e.precisions ?? []).join(', '), (e.presets ?? []).join(', '));
+    const facts = w.facts(e.version, (e.precisions ?? []).join(w.comma), (e.presets ?? []).join(w.comma));
     return `<h2 id="${escaped(e.name)}">${escaped(e.title)} (<code>${escaped(e.name)}</code>)</h2>${paragraph(facts, 'muted')}${engineOptions(e.options ?? [], w.specColumns)}`;
   });
   return page(language, 'specs', w.specs, `<p>${w.specsText}</p>${filter(language)}${parts.join('\n')}`);
@@ -154,6 +154,29 @@ function studies(program: string, language: Language): GeneratedPage {
   );
 }
 
+/** Help of the program with its long lines broken at `width`; what follows stands below the explanation. */
+export function reflowed(help: string, width: number): string {
+  return help
+    .split('\n')
+    .map((line) => {
+      if (line.length <= width) return line;
+      const indent = ' '.repeat((line.match(/^ +\S.*? {2,}(?=\S)|^ */)?.[0] ?? '').length);
+      let now = line.slice(0, indent.length);
+      const lines: string[] = [];
+      for (const word of line.slice(indent.length).split(' ')) {
+        if (now.length + word.length > width && now.trim()) {
+          lines.push(now.trimEnd());
+          now = indent;
+        }
+        now += `${word} `;
+      }
+      return [...lines, now.trimEnd()].join('\n');
+    })
+    .join('\n');
+}
+
+const helpWidth = 112; // characters that fit a wide block
+
 function commandLine(program: string, language: Language): GeneratedPage {
   const w = referenceWords[language];
   const main = output(program, ['--help']);
@@ -163,7 +186,7 @@ function commandLine(program: string, language: Language): GeneratedPage {
   if (names.length < 10) throw new Error('the help of the program names fewer than ten commands');
   const common = main.slice(main.indexOf('Exit codes:'));
   const block = (text: string) =>
-    `<div class="code"><pre tabindex="0"><code>${escaped(text.trim())}</code></pre></div>`;
+    `<div class="code wide help"><pre tabindex="0"><code>${escaped(reflowed(text.trim(), helpWidth))}</code></pre></div>`;
   const parts = names.map((name) => {
     const help = output(program, [name, '--help']);
     return `<h2 id="${name}">rigor ${name}</h2>${block(help.replace(common, ''))}`;

@@ -42,6 +42,8 @@ interface ReferenceWords {
   noReport: string;
   command: string;
   part: string; // title of this part in the table of contents
+  comma: string; // between words of a list
+  colon: string;
 }
 
 export const referenceWords: Record<Language, ReferenceWords> = {
@@ -87,16 +89,18 @@ export const referenceWords: Record<Language, ReferenceWords> = {
       '<code>./rigor docs --report</code> also makes the reference report of this version: every scenario of the suite <code>standard</code> on every installed engine. It takes minutes, with all engines hours, and is in the folder <code>report</code> of this site.',
     command: 'command',
     part: 'Reference and gallery',
+    comma: ', ',
+    colon: ': ',
   },
   zh: {
     commandLine: '命令行与退出码',
     specs: '各引擎及其设置',
     specsText:
-      '引擎用规格串指定：<code>NAME:key=value,key=value</code>。下面是生成本页的机器上装有的引擎；<code>./rigor list engines</code> 列出你自己的。',
-    specColumns: ['键', '默认值', '匹配时', '含义与取值（英文）'],
+      '引擎用设置串（spec）指定：<code>NAME:key=value,key=value</code>。下面是生成本页的机器上装有的引擎；<code>./rigor list engines</code> 列出你自己的。',
+    specColumns: ['键', '默认值', 'matched 预设', '含义与取值（英文）'],
     facts: (version, precisions, presets) => `版本 ${version}；精度 ${precisions}；预设 ${presets}`,
     algorithms: '本引擎的算法',
-    algorithmsText: '自带引擎在一步的每个阶段可选的算法。用规格串选择，例如 rigor:solver=nsgs,substeps=4。说明为英文。',
+    algorithmsText: '自带引擎在一步的每个阶段可选的算法。用设置串选择，例如 rigor:solver=nsgs,substeps=4。说明为英文。',
     isDefault: '（默认）',
     scenarios: '场景库',
     sceneFacts: (dimension, bodies, duration) => [`${dimension}D`, `${bodies} 个物体`, `${duration} s`],
@@ -128,6 +132,8 @@ export const referenceWords: Record<Language, ReferenceWords> = {
       '<code>./rigor docs --report</code> 另外生成本版本的参考报告：套件 <code>standard</code> 的每个场景在每个已安装引擎上的结果。需要几分钟，装齐所有引擎时要几小时，放在本站点的 <code>report</code> 文件夹中。',
     command: '命令',
     part: '参考与图库',
+    comma: '、',
+    colon: '：',
   },
 };
 

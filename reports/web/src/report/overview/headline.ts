@@ -48,7 +48,9 @@ export function headline(): HTMLElement {
             redCases(),
             '.',
           ]
-        : 'No case is red.',
+        : run.symbols.unsupported?.count === run.total
+          ? 'Nothing was judged: every case is unsupported.'
+          : 'No case is red.',
     ),
     el(
       'div',

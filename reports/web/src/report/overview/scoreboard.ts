@@ -83,10 +83,10 @@ function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): str
     lines.push(`${duration(cost)} a step${clock}, ${ratio(cost / leastCost(scale, column))} the fastest here`);
   }
   if (worst.miss) {
-    const times = ratio(toNumber(worst.miss.value) / toNumber(worst.miss.bound));
-    lines.push(
-      `furthest off: ${words(worst.miss.name)} ${worst.miss.subject} ${format(worst.miss.value)}, ${times} its bound`,
-    );
+    const { name, subject, value, bound, boundMin } = worst.miss;
+    const isBelow = toNumber(value) < toNumber(boundMin);
+    const relation = isBelow ? `below ${format(boundMin)}` : `${ratio(toNumber(value) / toNumber(bound))} its bound`;
+    lines.push(`furthest off: ${words(name)} ${subject} ${format(value)}, ${relation}`);
   }
   if (cases.length > 1) for (const c of cases) lines.push(`${timeStep(c.dt)}: ${verdictText(c.shown).word}`);
   if (worst.reason) lines.push(worst.reason);

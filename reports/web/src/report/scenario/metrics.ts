@@ -4,7 +4,7 @@
 // One table, engines as columns, metrics as rows under a heading per kind; a number with a time is a link to it.
 import { type Child, el } from '../../common/elements.ts';
 import { findingKey } from '../../common/finding.ts';
-import { format, full, inShownUnit, type Maybe, shownUnit, toNumber } from '../../common/format.ts';
+import { boundsText, format, full, inShownUnit, type Maybe, shownUnit, toNumber } from '../../common/format.ts';
 import type { Case, Column, Metric } from '../data.ts';
 import { caseOf, metricShown, run, verdictText } from '../run.ts';
 import { chip, metricName, panel, scroll, specHead, stickyHead } from '../widgets.ts';
@@ -73,7 +73,7 @@ function cell(context: Context, column: Column, name: string, subject: string): 
     'td',
     { class: 'num', title, 'data-value': full(m.value), 'data-spec': column.spec },
     judged ? chip(shown, text, verdictText(shown).word) : text,
-    m.bound !== null ? small(`≤ ${shownValue(m.bound)}`) : null,
+    m.bound !== null ? small(boundsText(m.bound, m.boundMin, shownValue)) : null,
     m.grade && !m.subject ? small(`${m.grade} ${format(m.relative, 2)}`) : null,
     m.ideal !== null ? small(`scheme ${format(m.ideal, 2)}`) : null,
     m.dependsOnOrder

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { type Child, el } from '../../common/elements.ts';
-import { format, inShownUnit, ratio, toNumber, unitText, words } from '../../common/format.ts';
+import { format, inShownUnit, type Maybe, ratio, toNumber, unitText, words } from '../../common/format.ts';
 import type { Case, Metric } from '../data.ts';
 import { labelOf, run } from '../run.ts';
 import { changeMark, chip, gradeChip, headRow, panel, scroll } from '../widgets.ts';
@@ -76,11 +76,15 @@ export function outcomes(context: Context): HTMLElement | null {
   const odd = context.cases.filter((c) => !['pass', 'no_bound', 'unsupported'].includes(c.shown));
   const unable = context.cases.filter((c) => c.shown === 'unsupported');
   if (odd.length + unable.length === 0) return null;
+  const limits = (m: Metric): string => {
+    const shown = (value: Maybe) => format(inShownUnit(value, m.unit));
+    return m.boundMin == null ? `a bound of ${shown(m.bound)}` : `bounds of ${shown(m.boundMin)} to ${shown(m.bound)}`;
+  };
   const said = (c: Case, m: Metric): Child => {
     const at = toNumber(m.at);
     return [
       `${words(m.name)}${m.subject ? ` of ${m.subject}` : ''} ${format(inShownUnit(m.value, m.unit))}${unitText(m.unit)}`,
-      m.bound === null ? '' : ` against a bound of ${format(inShownUnit(m.bound, m.unit))}${unitText(m.unit)}`,
+      m.bound === null ? '' : ` against ${limits(m)}${unitText(m.unit)}`,
       at >= 0 ? [' (worst ', moment(context, c.spec, at, bodiesOf(m.subject), `at t = ${format(at)} s`), ')'] : null,
     ];
   };
