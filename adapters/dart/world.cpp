@@ -49,10 +49,32 @@ class Filter final : public dart::collision::CollisionFilter {
     const Model& model_;
 };
 
+/// FCL finds contacts with sideways normals where the end faces of two prisms lie in one plane, or the upper one's reach
+/// farther (plain_programs/dart/sides.cpp): what stands is made twice as deep as what moves on it.
+void deepen(scenario::Geometry& geometry) {
+    constexpr double kDeeper = 2.0;
+    if (auto* box = std::get_if<scenario::Box>(&geometry)) box->halfExtents.z *= kDeeper;
+    if (auto* hull = std::get_if<scenario::ConvexHull>(&geometry))
+        for (Vec3& v : hull->vertices) v.z *= kDeeper;
+    if (auto* mesh = std::get_if<scenario::TriangleMesh>(&geometry))
+        for (Vec3& v : mesh->vertices) v.z *= kDeeper;
+}
+
+adapter::Scenario liftedFor(const std::string& narrowPhase, const adapter::Scenario& scenario) {
+    adapter::Scenario lifted = adapter::planarLift(scenario);
+    if (narrowPhase != "fcl_mesh" && narrowPhase != "fcl_primitive") return lifted;
+    for (Body& body : lifted.bodies)
+        if (body.type != BodyType::Dynamic)
+            for (scenario::Shape& shape : body.shapes) deepen(shape.geometry);
+    return lifted;
+}
+
 }  // namespace
 
 DartWorld::DartWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings)
-    : scenario_(adapter::withStiffness(scenario.dimension == 2 ? adapter::planarLift(scenario) : scenario)),
+    : scenario_(adapter::withStiffness(
+          scenario.dimension == 2 ? liftedFor(adapter::textSetting(settings, "narrow_phase"), scenario)
+                                  : scenario)),
       settings_(settings),
       dt_(dt),
       planar_(scenario.dimension == 2),

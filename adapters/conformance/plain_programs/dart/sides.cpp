@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Contacts that DART's narrow phases find at two triangles from their front and from behind.
+// Contacts that DART's narrow phases find at two triangles from their front and from behind, and at two prisms whose ends lie in
+// one plane.
 #include <dart/collision/CollisionGroup.hpp>
 #include <dart/collision/CollisionObject.hpp>
 #include <dart/collision/fcl/FCLCollisionDetector.hpp>
@@ -107,6 +108,23 @@ TEST(PlainDart, MeshesFromBehind) {
         EXPECT_EQ(found(row.detector, row.shape, 1.0), row.front);
         EXPECT_EQ(found(row.detector, row.shape, -1.0), row.behind);
     }
+}
+
+/// A box that stands a millimetre deep in a greater one, by FCL's meshes. Where their ends lie in one plane, contacts
+/// there have sideways normals and depths of half a metre; where the greater one reaches farther, none has.
+TEST(PlainDart, PrismsWithEndsInOnePlaneTouchSideways) {
+    const auto detector = fcl(FCLCollisionDetector::MESH);
+    const auto sideways = [&](double depth) {
+        const auto contacts =
+            between(detector, std::make_shared<BoxShape>(Eigen::Vector3d(1, 1, depth)),
+                    std::make_shared<BoxShape>(Eigen::Vector3d(0.5, 0.5, 1)), {0.13, 0.749, 0});
+        EXPECT_GE(contacts.size(), 4u);
+        return std::count_if(contacts.begin(), contacts.end(), [](const auto& contact) {
+            return std::abs(contact.normal.x()) > 0.9 && contact.penetrationDepth > 0.5;
+        });
+    };
+    EXPECT_GE(sideways(1.0), 2);
+    EXPECT_EQ(sideways(2.0), 0);
 }
 
 }  // namespace
