@@ -152,7 +152,7 @@ std::size_t contactsOfBoxes(const std::shared_ptr<dart::collision::CollisionDete
 }
 
 /// Every pair of triangles has contacts by default: 19 where ODE's narrow phase finds 8. Dantzig's method takes the cube
-/// of the contacts of a pile, so that pile and pile_2d do not end in their time.
+/// of the contacts of a pile, so that pile and pyramid_2d do not end in their time.
 TEST(PlainDart, BoxesAsMeshesTouchAtManyPoints) {
     const std::size_t meshes = contactsOfBoxes(nullptr);
     const std::size_t boxes = contactsOfBoxes(dart::collision::OdeCollisionDetector::create());
