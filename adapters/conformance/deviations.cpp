@@ -98,8 +98,6 @@ constexpr Deviation kDeviations[] = {
     {"dart", "", "default", 0, "instant_pass_points", 0.22, "balls are meshes of facets"},
     {"dart", "", "default", 0, "instant_pass_normal", 0.22, "balls are meshes of facets"},
     {"dart", "", "default", 0, "instant_plank_points_ball", 0.012, "balls are meshes of facets"},
-    {"dart", "", "default", 2, "rest_height", 5e-4,
-     "a step takes a hundredth of an overlap away, at most at 1 mm/s"},
     {"dart", "", "default", 3, "perch_cylinder", 0.04, "cylinders are meshes of facets"},
     {"fcl", "", "", 0, "half_space_ball_distance_told", 1.0, "no distances from unbounded shapes"},
     {"fcl", "", "", 0, "half_space_box_distance_told", 1.0, "no distances from unbounded shapes"},

@@ -32,11 +32,14 @@ class DartEngine final : public adapter::Engine, public adapter::DynamicsEngine 
         c.dynamics = c.collision = true;
         c.dimensions = {3};
         c.planar = true;
-        c.shapes = {"sphere",     "box",           "capsule",      "cylinder", "ellipsoid", "hull",
-                    "half_space", "triangle_mesh", "height_field", "circle",   "polygon",   "half_plane"};
-        c.joints = {"ball",          "ball.break",  "hinge",      "hinge.limit",  "hinge.motor",
-                    "hinge.spring",  "hinge.break", "slider",     "slider.limit", "slider.motor",
-                    "slider.spring", "fixed",       "fixed.break"};
+        c.shapes = {"sphere",  "box",        "capsule",       "cylinder",     "ellipsoid",
+                    "hull",    "half_space", "triangle_mesh", "height_field", "circle",
+                    "polygon", "half_plane", "segment",       "chain"};
+        c.joints = {"ball",          "ball.break",   "hinge",       "hinge.limit",   "hinge.motor",
+                    "hinge.spring",  "hinge.break",  "slider",      "slider.limit",  "slider.motor",
+                    "slider.spring", "fixed",        "fixed.break", "wheel",         "wheel.limit",
+                    "wheel.motor",   "wheel.spring", "six_dof",     "six_dof.limit", "six_dof.motor",
+                    "six_dof.spring"};
         c.contactImpulses = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.contactFilters = c.shapeFilters = true;
@@ -49,6 +52,8 @@ class DartEngine final : public adapter::Engine, public adapter::DynamicsEngine 
             {"ball.limit", kLimits},
             {"cone_twist", kLimits},
             {"slider.break", kConstraints},
+            {"wheel.break", kConstraints},
+            {"six_dof.break", kConstraints},
             {"cone", kCones},
             {"static_friction", "dart/dynamics/ShapeFrame.hpp, DynamicsAspectProperties: one coefficient"},
             {"rolling_friction", "dart/dynamics/ShapeFrame.hpp, DynamicsAspectProperties: none of rolling"},

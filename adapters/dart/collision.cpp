@@ -3,11 +3,13 @@
 #include "adapters/dart/collision.hpp"
 
 #include <algorithm>
+#include <dart/collision/CollisionFilter.hpp>
 #include <dart/collision/CollisionGroup.hpp>
 #include <dart/collision/CollisionObject.hpp>
 #include <dart/dynamics/SimpleFrame.hpp>
 
 #include "adapters/dart/shapes.hpp"
+#include "adapters/dart/surfaces.hpp"
 #include "adapters/interface/deepest_first.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/planar.hpp"
@@ -18,11 +20,23 @@ namespace {
 
 using adapter::ContactPoint;
 
+class BackFilter final : public dart::collision::CollisionFilter {
+  public:
+    explicit BackFilter(const Surfaces& surfaces) : surfaces_(surfaces) {}
+    bool ignoresCollision(const dart::collision::CollisionObject* one,
+                          const dart::collision::CollisionObject* two) const override {
+        return !surfaces_.mayMeet(one->getShapeFrame(), two->getShapeFrame());
+    }
+
+  private:
+    const Surfaces& surfaces_;
+};
+
 /// One side of a query.
 class Side {
   public:
     Side(const adapter::Geometry& geometry, const Pose& pose, const std::string& narrowPhase,
-         dart::collision::CollisionDetector& detector)
+         dart::collision::CollisionDetector& detector, Surfaces& surfaces)
         : group_(detector.createCollisionGroupAsSharedPtr()) {
         for (const DartShape& made : makeShapes(geometry, narrowPhase)) {
             auto frame = std::make_shared<dart::dynamics::SimpleFrame>(dart::dynamics::Frame::World(),
@@ -30,6 +44,7 @@ class Side {
             frame->setShape(made.shape);
             frame->createCollisionAspect();
             group_->addShapeFrame(frame.get());
+            if (made.surface) surfaces.add(frame.get(), made.back);
             frames_.push_back(std::move(frame));
         }
     }
@@ -62,13 +77,16 @@ adapter::CollisionAnswer DartCollisionEngine::collide(const adapter::CollisionQu
     const adapter::Geometry a = planar ? adapter::planarGeometry(*query.a.geometry) : *query.a.geometry;
     const adapter::Geometry b = planar ? adapter::planarGeometry(*query.b.geometry) : *query.b.geometry;
     const auto detector = makeDetector(phase);
-    const Side one(a, query.a.pose, phase, *detector), two(b, query.b.pose, phase, *detector);
+    Surfaces surfaces(phase);
+    const Side one(a, query.a.pose, phase, *detector, surfaces),
+        two(b, query.b.pose, phase, *detector, surfaces);
     dart::collision::CollisionResult found;
-    one.group().collide(&two.group(), dart::collision::CollisionOption(true, 1000), &found);
+    const auto filter = std::make_shared<BackFilter>(surfaces);
+    one.group().collide(&two.group(), dart::collision::CollisionOption(true, 1000, filter), &found);
 
     adapter::CollisionAnswer answer;
     for (const dart::collision::Contact& c : found.getContacts()) {
-        if (dart::collision::Contact::isZeroNormal(c.normal)) continue;
+        if (dart::collision::Contact::isZeroNormal(c.normal) || !surfaces.pushesOut(c)) continue;
         ContactPoint point;
         point.bodyB = 1;
         point.normal = (one.has(c.collisionObject1) ? -1.0 : 1.0) * fromDart(c.normal);

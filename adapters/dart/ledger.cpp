@@ -62,6 +62,9 @@ std::vector<LedgerEntry> DartWorld::ledger() const {
             add("loops", "rigid", std::to_string(model_.loops.size()) + " joints as constraints",
                 "points are pulled together by the error reduction of joints");
     }
+    if (std::any_of(scenario_.joints.begin(), scenario_.joints.end(), hasEulerAngles))
+        add("six_dof_angles", "twist and swing", "successive turns: swing_y, swing_z, twist",
+            "equal where one swing alone is open, else from the second order on different");
     if (!model_.motors.empty()) add("motors", "speed and largest force", "servo, bounded");
     add("sleeping", "off", "off");
     add("continuous_collision", "off", "off");

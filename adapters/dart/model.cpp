@@ -20,15 +20,18 @@ using scenario::AxisMode;
 using scenario::Body;
 using scenario::BodyType;
 using scenario::JointAxis;
-using scenario::JointType;
+
+/// Mass of a node between the joints of one body, as part of the body's: DART warns of none.
+constexpr double kCarrierMass = 1e-12;
 
 class Builder {
   public:
     Builder(const adapter::Scenario& scenario, bool planar, const std::string& narrowPhase)
-        : scenario_(scenario), planar_(planar), narrowPhase_(narrowPhase) {
+        : scenario_(scenario), planar_(planar), narrowPhase_(narrowPhase), model_(narrowPhase) {
         model_.forest = adapter::spanningForest(scenario, planar);
         model_.bodies.resize(scenario.bodies.size());
         model_.shapeNodes.resize(scenario.bodies.size());
+        model_.coordinates.resize(scenario.bodies.size());
         for (const int body : model_.forest.order) addBody(body);
     }
     Model take() { return std::move(model_); }
@@ -102,48 +105,63 @@ class Builder {
         return node;
     }
 
-    /// The joint's frame has the axes of the child's frame at the initial poses.
+    /// The joint's frame has the axes of the child's frame at the initial poses. Every coordinate has a joint of its own;
+    /// between two of them is a node without shapes, in the joint's frame.
     BodyNode* createTied(dart::dynamics::Skeleton& skeleton, BodyNode* parent,
                          dart::dynamics::Joint::Properties frame, int index,
                          const BodyNode::Properties& body) {
         using namespace dart::dynamics;
         const Link& own = link(index);
-        const scenario::Joint& joint = scenario_.joints[own.joint];
-        const Pose anchor{anchorIn(own, joint), {}};
+        const Pose anchor{anchorIn(own, scenario_.joints[own.joint]), {}};
         Pose base;
         if (own.parent != kNone && link(own.parent).fixed)
             base = scenario_.bodies[own.parent].pose * link(own.parent).frame;
         frame.mT_ParentBodyToJoint = toDart(base * own.rest * anchor);
+        std::vector<Coordinate> coordinates = coordinatesOf(own, scenario_, planar_);
+        const std::string name = frame.mName;
+        for (std::size_t k = 0; k + 1 < coordinates.size(); ++k) {
+            BodyNode::Properties carrier;
+            carrier.mName = body.mName + "_carrier" + std::to_string(k);
+            carrier.mInertia =
+                Inertia(kCarrierMass * body.mInertia.getMass(), Eigen::Vector3d::Zero(),
+                        Eigen::Matrix3d(kCarrierMass * body.mInertia.getMoment().diagonal().asDiagonal()));
+            parent = createOne(skeleton, parent, frame, coordinates[k], carrier);
+            frame.mName = name + "_" + std::to_string(k + 1);
+            frame.mT_ParentBodyToJoint.setIdentity();
+        }
         frame.mT_ChildBodyToJoint = toDart(anchor);
-        const JointAxis& use = joint.axes[0];
-        const bool turns = joint.type == JointType::Hinge || joint.type == JointType::Ball;
-        if (joint.type == JointType::Fixed || use.mode == AxisMode::Locked) {
+        if (coordinates.empty()) {
             WeldJoint::Properties weld;
             static_cast<dart::dynamics::Joint::Properties&>(weld) = frame;
             return create<WeldJoint>(skeleton, parent, weld, body);
         }
+        BodyNode* node = createOne(skeleton, parent, frame, coordinates.back(), body);
+        model_.coordinates[index] = std::move(coordinates);
+        return node;
+    }
+
+    BodyNode* createOne(dart::dynamics::Skeleton& skeleton, BodyNode* parent,
+                        const dart::dynamics::Joint::Properties& frame, Coordinate& coordinate,
+                        const BodyNode::Properties& body) {
+        using namespace dart::dynamics;
         BodyNode* node = nullptr;
-        if (joint.type == JointType::Ball && !planar_) {
+        if (coordinate.kind == CoordinateKind::Ball) {
             BallJoint::Properties ball;
             static_cast<dart::dynamics::Joint::Properties&>(ball) = frame;
-            return create<BallJoint>(skeleton, parent, ball, body);
-        }
-        const Vec3 axis = planar_ && turns ? Vec3{0.0, 0.0, 1.0} : axisIn(own, joint);
-        if (turns) {
+            node = create<BallJoint>(skeleton, parent, ball, body);
+        } else if (coordinate.kind == CoordinateKind::Turn) {
             RevoluteJoint::Properties hinge;
             static_cast<dart::dynamics::Joint::Properties&>(hinge) = frame;
-            hinge.mAxis = toDart(axis);
+            hinge.mAxis = toDart(coordinate.axis);
             node = create<RevoluteJoint>(skeleton, parent, hinge, body);
-        } else if (joint.type == JointType::Slider) {
+        } else {
             PrismaticJoint::Properties slider;
             static_cast<dart::dynamics::Joint::Properties&>(slider) = frame;
-            slider.mAxis = toDart(axis);
+            slider.mAxis = toDart(coordinate.axis);
             node = create<PrismaticJoint>(skeleton, parent, slider, body);
-        } else {
-            throw adapter::notInAdapter("dart", std::string("joint '") + jointName(joint.type) + "'",
-                                        "joint '" + joint.name + "'");
         }
-        equip(*node->getParentJoint(), use);
+        coordinate.joint = node->getParentJoint();
+        if (coordinate.use != nullptr) equip(*coordinate.joint, *coordinate.use);
         return node;
     }
 
@@ -185,6 +203,7 @@ class Builder {
         shape->setRelativeTransform(toDart(pose));
         if (model_.shapeNodes[body][k] == nullptr) model_.shapeNodes[body][k] = shape;
         model_.shapes[shape] = {body, static_cast<int>(k)};
+        if (made.surface) model_.surfaces.add(shape, made.back);
     }
 
     const adapter::Scenario& scenario_;

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "adapters/dart/convert.hpp"
+#include "adapters/dart/coordinates.hpp"
 #include "adapters/dart/loops.hpp"
+#include "adapters/dart/surfaces.hpp"
 #include "adapters/interface/joint_trees.hpp"
 #include "adapters/interface/pair_table.hpp"
 
@@ -21,12 +23,17 @@ using adapter::kNone;
 using adapter::Link;
 
 struct Model {
+    explicit Model(const std::string& narrowPhase) : surfaces(narrowPhase) {}
+
     Forest forest;
     std::vector<dart::dynamics::SkeletonPtr> skeletons;
     std::vector<dart::dynamics::BodyNode*> bodies;  ///< nodes by scenario body
     std::vector<std::vector<dart::dynamics::ShapeNode*>>
         shapeNodes;  ///< the first of a shape's, by body and shape
     std::unordered_map<const dart::dynamics::ShapeFrame*, adapter::PairTable::ShapeRef> shapes;
+    Surfaces surfaces;
+    std::vector<std::vector<Coordinate>>
+        coordinates;               ///< coordinates of the joint that a body hangs on, by body
     std::vector<LoopJoint> loops;  ///< joints beside the trees, made once the bodies are placed
     /// Joints that a motor drives, with the speed it strives for [u/s].
     std::vector<std::pair<dart::dynamics::Joint*, double>> motors;
@@ -37,7 +44,7 @@ Model buildModel(const adapter::Scenario& scenario, bool planar, const std::stri
 
 /// Puts a body into a state, as coordinates of its joint; what its joint does not allow is lost. `states` are those of
 /// all bodies; bodies that it hangs on have theirs already.
-void placeBody(const Model& model, const adapter::Scenario& scenario, bool planar, int body,
+void placeBody(const Model& model, const adapter::Scenario& scenario, int body,
                std::span<const adapter::BodyState> states);
 
 }  // namespace rigor::dart_adapter

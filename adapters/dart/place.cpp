@@ -6,7 +6,6 @@
 #include <dart/dynamics/BallJoint.hpp>
 #include <dart/dynamics/FreeJoint.hpp>
 #include <dart/dynamics/PlanarJoint.hpp>
-#include <dart/dynamics/RevoluteJoint.hpp>
 #include <numbers>
 
 #include "adapters/dart/model.hpp"
@@ -35,38 +34,54 @@ void placeFree(dart::dynamics::Joint& joint, const Pose& pose, const BodyState& 
     joint.setVelocities(Eigen::Vector3d(state.velocity.x, state.velocity.y, state.angularVelocity.z));
 }
 
+void placeTurns(const std::vector<Coordinate>& coordinates, const adapter::LinkMotion& motion) {
+    std::vector<Vec3> axes;
+    std::vector<dart::dynamics::Joint*> joints;
+    for (const Coordinate& coordinate : coordinates) {
+        if (coordinate.kind == CoordinateKind::Ball) {
+            const Eigen::Matrix3d turned = toDart(Pose{{}, motion.turned}).linear();
+            coordinate.joint->setPositions(dart::dynamics::BallJoint::convertToPositions(turned));
+            coordinate.joint->setVelocities(toDart(motion.turn));
+        } else if (coordinate.kind == CoordinateKind::Turn) {
+            axes.push_back(coordinate.axis);
+            joints.push_back(coordinate.joint);
+        }
+    }
+    if (axes.empty()) return;
+    const Angles found = anglesOf(axes, motion.turned, motion.turn);
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+        joints[k]->setPosition(0, near(found.angles[k], joints[k]->getPosition(0)));
+        joints[k]->setVelocity(0, found.rates[k]);
+    }
+}
+
 }  // namespace
 
-void placeBody(const Model& model, const adapter::Scenario& scenario, bool planar, int body,
+void placeBody(const Model& model, const adapter::Scenario& scenario, int body,
                std::span<const BodyState> states) {
     const Link& link = model.forest.links[body];
     if (link.fixed) return;
-    dart::dynamics::Joint& joint = *model.bodies[body]->getParentJoint();
     if (link.joint == kNone) {
         const BodyState& state = states[body];
-        return placeFree(joint, Pose{state.position, state.orientation} * link.frame, state);
+        return placeFree(*model.bodies[body]->getParentJoint(),
+                         Pose{state.position, state.orientation} * link.frame, state);
     }
-    if (joint.getNumDofs() == 0) return;
-
     const adapter::LinkMotion motion = adapter::motionOf(model.forest, scenario, body, states);
-    if (joint.getNumDofs() == 3) {
-        const Eigen::Matrix3d turned = toDart(Pose{{}, motion.turned}).linear();
-        joint.setPositions(dart::dynamics::BallJoint::convertToPositions(turned));
-        joint.setVelocities(toDart(motion.turn));
-        return;
+    const std::vector<Coordinate>& coordinates = model.coordinates[body];
+    placeTurns(coordinates, motion);
+    // A body whose turns come first slides along axes of its own, others along axes of their parents.
+    const bool byItself = !coordinates.empty() && coordinates.front().kind != CoordinateKind::Travel;
+    for (const Coordinate& coordinate : coordinates) {
+        if (coordinate.kind != CoordinateKind::Travel) continue;
+        const Vec3 along = rotate(byItself ? Quat{} : link.rest.orientation, coordinate.axis);
+        const Vec3 moved = byItself ? motion.anchor - inverse(motion.relative) * (link.rest * motion.anchor)
+                                    : motion.relative * motion.anchor - link.rest * motion.anchor;
+        const Vec3 speed =
+            byItself ? rotateInverse(motion.pose.orientation, motion.speed) - cross(motion.turn, moved)
+                     : rotateInverse(motion.parent.orientation, motion.speed);
+        coordinate.joint->setPosition(0, dot(moved, along));
+        coordinate.joint->setVelocity(0, dot(speed, along));
     }
-    const bool turns = dynamic_cast<dart::dynamics::RevoluteJoint*>(&joint) != nullptr;
-    const Vec3 axis = planar && turns ? Vec3{0.0, 0.0, 1.0} : axisIn(link, scenario.joints[link.joint]);
-    if (turns) {
-        const Quat& q = motion.turned;
-        const double angle = 2.0 * std::atan2(dot(Vec3{q.x, q.y, q.z}, axis), q.w);
-        joint.setPosition(0, near(angle, joint.getPosition(0)));
-        joint.setVelocity(0, dot(motion.turn, axis));
-        return;
-    }
-    const Vec3 along = rotate(link.rest.orientation, axis);
-    joint.setPosition(0, dot(motion.relative * motion.anchor - link.rest * motion.anchor, along));
-    joint.setVelocity(0, dot(motion.speed, rotate(motion.parent.orientation, along)));
 }
 
 }  // namespace rigor::dart_adapter

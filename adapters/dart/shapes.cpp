@@ -68,6 +68,13 @@ dart::dynamics::ShapePtr meshShape(const TriangleMesh& mesh) {
     return std::make_shared<dart::dynamics::MeshShape>(Eigen::Vector3d::Ones(), sceneOf(mesh));
 }
 
+/// Front and back.
+std::vector<DartShape> bothSides(const TriangleMesh& mesh) {
+    TriangleMesh back = mesh;
+    for (auto& triangle : back.triangles) std::swap(triangle[1], triangle[2]);
+    return {{meshShape(mesh), {}, true, false}, {meshShape(back), {}, true, true}};
+}
+
 TriangleMesh surfaceOf(const ConvexHull& hull) {
     const HullMesh mesh = scenario::convexHull3d(hull.vertices);
     TriangleMesh out;
@@ -144,7 +151,7 @@ std::vector<DartShape> makeShapes(const adapter::Geometry& geometry, const std::
     if (const auto* s = std::get_if<scenario::Cylinder>(&geometry))
         return {cylinder(s->radius, s->halfLength)};
     if (const auto* s = std::get_if<ConvexHull>(&geometry)) return {{meshShape(surfaceOf(*s)), {}}};
-    if (const auto* s = std::get_if<TriangleMesh>(&geometry)) return {{meshShape(*s), {}}};
+    if (const auto* s = std::get_if<TriangleMesh>(&geometry)) return bothSides(*s);
     if (const auto* s = std::get_if<HeightField>(&geometry)) return {heightField(*s, narrowPhase)};
     if (const auto* s = std::get_if<scenario::Ellipsoid>(&geometry)) return {ellipsoid(*s, narrowPhase)};
     throw adapter::notInAdapter("dart", "shape '" + name + "'");

@@ -40,7 +40,8 @@ class Filter final : public dart::collision::CollisionFilter {
         const PairTable::ShapeRef &a = model_.shapes.at(one->getShapeFrame()),
                                   &b = model_.shapes.at(two->getShapeFrame());
         return a.body == b.body || !pairs_.mayCollide(a.body, b.body) ||
-               !pairs_.shapesMayTouch(a.body, a.shape, b.body, b.shape);
+               !pairs_.shapesMayTouch(a.body, a.shape, b.body, b.shape) ||
+               !model_.surfaces.mayMeet(one->getShapeFrame(), two->getShapeFrame());
     }
 
   private:
@@ -48,10 +49,32 @@ class Filter final : public dart::collision::CollisionFilter {
     const Model& model_;
 };
 
+/// FCL finds contacts with sideways normals where the end faces of two prisms lie in one plane, or the upper one's reach
+/// farther (plain_programs/dart/sides.cpp): what stands is made twice as deep as what moves on it.
+void deepen(scenario::Geometry& geometry) {
+    constexpr double kDeeper = 2.0;
+    if (auto* box = std::get_if<scenario::Box>(&geometry)) box->halfExtents.z *= kDeeper;
+    if (auto* hull = std::get_if<scenario::ConvexHull>(&geometry))
+        for (Vec3& v : hull->vertices) v.z *= kDeeper;
+    if (auto* mesh = std::get_if<scenario::TriangleMesh>(&geometry))
+        for (Vec3& v : mesh->vertices) v.z *= kDeeper;
+}
+
+adapter::Scenario liftedFor(const std::string& narrowPhase, const adapter::Scenario& scenario) {
+    adapter::Scenario lifted = adapter::planarLift(scenario);
+    if (narrowPhase != "fcl_mesh" && narrowPhase != "fcl_primitive") return lifted;
+    for (Body& body : lifted.bodies)
+        if (body.type != BodyType::Dynamic)
+            for (scenario::Shape& shape : body.shapes) deepen(shape.geometry);
+    return lifted;
+}
+
 }  // namespace
 
 DartWorld::DartWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings)
-    : scenario_(adapter::withStiffness(scenario.dimension == 2 ? adapter::planarLift(scenario) : scenario)),
+    : scenario_(adapter::withStiffness(
+          scenario.dimension == 2 ? liftedFor(adapter::textSetting(settings, "narrow_phase"), scenario)
+                                  : scenario)),
       settings_(settings),
       dt_(dt),
       planar_(scenario.dimension == 2),
@@ -66,7 +89,7 @@ DartWorld::DartWorld(const adapter::Scenario& scenario, double dt, const adapter
     for (const Body& body : scenario_.bodies)
         prescribed_.push_back(
             {body.pose.position, body.pose.orientation, body.velocity, body.angularVelocity});
-    for (const int body : model_.forest.order) placeBody(model_, scenario_, planar_, body, prescribed_);
+    for (const int body : model_.forest.order) placeBody(model_, scenario_, body, prescribed_);
     for (const int joint : model_.forest.loops)
         model_.loops.emplace_back(scenario_, joint, model_.forest, model_.bodies, planar_);
     // FCL's trees are built where the shapes stand when they are added.
@@ -174,9 +197,10 @@ bool DartWorld::movable(const dart::collision::Contact& contact) const {
     return row.norm() > 1e-9;
 }
 
-/// DART's own solver takes the same ones.
-bool DartWorld::isContact(const dart::collision::Contact& contact) {
-    return !dart::collision::Contact::isZeroNormal(contact.normal) && contact.penetrationDepth >= 0.0;
+/// DART's own solver takes the same ones, but for those that push through a surface.
+bool DartWorld::isContact(const dart::collision::Contact& contact) const {
+    return !dart::collision::Contact::isZeroNormal(contact.normal) && contact.penetrationDepth >= 0.0 &&
+           model_.surfaces.pushesOut(contact);
 }
 
 void DartWorld::findContacts() {
@@ -252,7 +276,7 @@ void DartWorld::moveKinematic() {
         if (rate > 0.0)
             state.orientation = normalized(scenario::fromAxisAngle(state.angularVelocity / rate, rate * dt_) *
                                            state.orientation);
-        placeBody(model_, scenario_, planar_, static_cast<int>(b), prescribed_);
+        placeBody(model_, scenario_, static_cast<int>(b), prescribed_);
     }
 }
 
@@ -262,8 +286,7 @@ void DartWorld::setStates(std::span<const BodyState> states) {
     for (std::size_t i = 0; i < all.size(); ++i)
         if (scenario_.bodies[i].type == BodyType::Dynamic) all[i] = states[i];
     for (const int body : model_.forest.order)
-        if (scenario_.bodies[body].type == BodyType::Dynamic)
-            placeBody(model_, scenario_, planar_, body, all);
+        if (scenario_.bodies[body].type == BodyType::Dynamic) placeBody(model_, scenario_, body, all);
 }
 
 /// FCL's trees of boxes remember where the shapes have been, so that contacts come in another order after a restore.

@@ -46,7 +46,7 @@ class DartWorld final : public adapter::World, public adapter::Snapshots, public
     void findContacts();
     void breakJoints();
     void useJointsThatHold();
-    static bool isContact(const dart::collision::Contact& contact);
+    bool isContact(const dart::collision::Contact& contact) const;
     bool movable(const dart::collision::Contact& contact) const;
     void setCoefficients(const dart::dynamics::ShapeFrame& one, const dart::dynamics::ShapeFrame& two) const;
     void moveKinematic();

@@ -210,5 +210,40 @@ TEST(DartWorld, ShapesOfSingleNarrowPhasesAreRefusedByTheOthers) {
         }
 }
 
+/// Two triangles bear bodies from both sides, whichever way they run, in every narrow phase that has meshes.
+TEST(DartWorld, ATriangleMeshBearsFromBothSides) {
+    for (const std::string phase : {"fcl_mesh", "fcl_primitive", "ode"})
+        for (const bool turned : {false, true})
+            for (const double side : {1.0, -1.0}) {
+                SCOPED_TRACE(phase + (turned ? ", turned" : "") + (side > 0 ? ", above" : ", below"));
+                Scenario s = scene(0.5);
+                s.gravity = {0, -9.81 * side, 0};
+                scenario::TriangleMesh mesh;
+                mesh.vertices = {{-4, 0, -2}, {-4, 0, 2}, {4, 0, -2}, {4, 0, 2}};
+                mesh.triangles = {{0, 1, 2}, {2, 1, 3}};
+                if (turned) mesh.triangles = {{0, 2, 1}, {2, 3, 1}};
+                addStatic(s, mesh);
+                const Geometry shapes[] = {Sphere{0.2}, Box{{0.2, 0.2, 0.2}}, boxHull({0.2, 0.2, 0.2}),
+                                           Cylinder{0.3, 0.2}, Capsule{0.2, 0.2}};
+                std::vector<int> steady, rocking;
+                for (const Geometry& shape : shapes) {
+                    // FCL gives a ball on a triangle a negative depth, and DART solves no such contact.
+                    if (phase == "fcl_primitive" && std::holds_alternative<Sphere>(shape)) continue;
+                    const double x = -2.9 + 1.4 * static_cast<double>(s.bodies.size() - 1);
+                    const bool hull = std::holds_alternative<ConvexHull>(shape);
+                    (hull ? rocking : steady)
+                        .push_back(addBody(s, shape, {x, 0.201 * side, 0.1}, 1.0, even(0.02)));
+                    if (std::holds_alternative<Capsule>(shape))
+                        s.bodies.back().pose.orientation =
+                            scenario::fromAxisAngle({1, 0, 0}, 1.5707963267948966);
+                }
+                Simulation simulation(s, 1.0 / 240.0, "preset=matched,narrow_phase=" + phase);
+                simulation.steps(120);
+                // A body that falls through is 1.2 m away. Hulls are meshes too, and rock.
+                for (const int b : steady) EXPECT_NEAR(simulation.state(b).position.y, 0.2 * side, 3e-2) << b;
+                for (const int b : rocking) EXPECT_NEAR(simulation.state(b).position.y, 0.2 * side, 0.1) << b;
+            }
+}
+
 }  // namespace
 }  // namespace rigor::test

@@ -52,6 +52,25 @@ TEST(PlainDart, Slide) {
         same(plain, adapterRun("dart:preset=default", scene, 1.0 / 240, 240), {1e-12, 1e-12, 1e-12, 1e-12}));
 }
 
+/// The way of a block of 4 m/s, mu = 0.5, in a direction between x and z [m]; Coulomb's law has 1.631 m.
+double slideWay(double angle) {
+    Loop loop(1.0 / 240, kDown);
+    loop.world->getConstraintSolver()->setCollisionDetector(dart::collision::OdeCollisionDetector::create());
+    loop.add(nullptr, {0, -0.5, 0}, std::make_shared<BoxShape>(Eigen::Vector3d(40, 1, 40)), 0.5);
+    const auto box = boxInertia(2, {0.5, 0.1, 0.5});
+    auto* block =
+        loop.add(&box, {0, 0.05, 0}, std::make_shared<BoxShape>(Eigen::Vector3d(0.5, 0.1, 0.5)), 0.5);
+    dynamic_cast<dart::dynamics::FreeJoint*>(block->getParentJoint())
+        ->setLinearVelocity({4 * std::cos(angle), 0, 4 * std::sin(angle)});
+    return travel(loop.run(240), 1);
+}
+
+/// Each of two directions is bounded by itself, so that friction between them is sqrt 2 of the cone's.
+TEST(PlainDart, FrictionIsAPyramid) {
+    EXPECT_NEAR(slideWay(0.0), 1.631, 0.02);
+    EXPECT_NEAR(slideWay(M_PI / 4) / 1.631, 1.0 / std::sqrt(2.0), 0.01);
+}
+
 /// DART takes the product of both restitutions, so that one of the shapes has 1.
 TEST(PlainDart, Bounce) {
     Loop loop(1.0 / 240, kDown);
@@ -133,7 +152,7 @@ std::size_t contactsOfBoxes(const std::shared_ptr<dart::collision::CollisionDete
 }
 
 /// Every pair of triangles has contacts by default: 19 where ODE's narrow phase finds 8. Dantzig's method takes the cube
-/// of the contacts of a pile, so that pile and pile_2d do not end in their time.
+/// of the contacts of a pile, so that pile and pyramid_2d do not end in their time.
 TEST(PlainDart, BoxesAsMeshesTouchAtManyPoints) {
     const std::size_t meshes = contactsOfBoxes(nullptr);
     const std::size_t boxes = contactsOfBoxes(dart::collision::OdeCollisionDetector::create());

@@ -2,9 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Meshes: the bodies of drop_on_mesh on their rough ground, with either solver of the contacts' problem.
-#include <assimp/mesh.h>
-#include <assimp/scene.h>
-
 #include <algorithm>
 #include <cmath>
 #include <dart/constraint/BoxedLcpConstraintSolver.hpp>
@@ -12,45 +9,15 @@
 #include <dart/dynamics/BoxShape.hpp>
 #include <dart/dynamics/CapsuleShape.hpp>
 #include <dart/dynamics/CylinderShape.hpp>
-#include <dart/dynamics/MeshShape.hpp>
 #include <dart/dynamics/SphereShape.hpp>
 
 #include "adapters/conformance/plain_programs/dart/loop.hpp"
+#include "adapters/conformance/plain_programs/dart/mesh.hpp"
 
 namespace rigor::plain {
 namespace {
 
 using namespace dart::dynamics;
-
-/// The ground, whose 441 corners are taken from the file instead of written out.
-ShapePtr ground(const scenario::TriangleMesh& mesh) {
-    auto* scene = new aiScene;
-    scene->mNumMaterials = 1;
-    scene->mMaterials = new aiMaterial* [1] { new aiMaterial };
-    scene->mNumMeshes = 1;
-    scene->mMeshes = new aiMesh* [1] { new aiMesh };
-    aiMesh& out = *scene->mMeshes[0];
-    out.mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
-    out.mNumVertices = static_cast<unsigned>(mesh.vertices.size());
-    out.mVertices = new aiVector3D[mesh.vertices.size()];
-    out.mNormals = new aiVector3D[mesh.vertices.size()];
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        const auto real = [&](double x) { return static_cast<ai_real>(x); };
-        out.mVertices[i] = {real(mesh.vertices[i].x), real(mesh.vertices[i].y), real(mesh.vertices[i].z)};
-        out.mNormals[i] = {0, 1, 0};
-    }
-    out.mNumFaces = static_cast<unsigned>(mesh.triangles.size());
-    out.mFaces = new aiFace[mesh.triangles.size()];
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        out.mFaces[i].mNumIndices = 3;
-        out.mFaces[i].mIndices = new unsigned[3];
-        for (int k = 0; k < 3; ++k) out.mFaces[i].mIndices[k] = static_cast<unsigned>(mesh.triangles[i][k]);
-    }
-    scene->mRootNode = new aiNode;
-    scene->mRootNode->mNumMeshes = 1;
-    scene->mRootNode->mMeshes = new unsigned[1]{0};
-    return std::make_shared<MeshShape>(Eigen::Vector3d::Ones(), scene);
-}
 
 ShapePtr shapeOf(const scenario::Geometry& geometry) {
     if (const auto* ball = std::get_if<scenario::Sphere>(&geometry))
@@ -70,8 +37,9 @@ Loop drop(double step) {
     Loop loop(step, {0, -9.81, 0});
     loop.world->getConstraintSolver()->setCollisionDetector(dart::collision::OdeCollisionDetector::create());
     const double e = std::sqrt(0.1);
-    loop.add(nullptr, {0, 0, 0}, ground(std::get<scenario::TriangleMesh>(scene.bodies[0].shapes[0].geometry)),
-             0.5, e);
+    // The ground has 441 corners, which are taken from the file instead of written out.
+    loop.add(nullptr, {0, 0, 0},
+             meshShape(std::get<scenario::TriangleMesh>(scene.bodies[0].shapes[0].geometry)), 0.5, e);
     const Eigen::Quaterniond alongY(Eigen::AngleAxisd(-0.5 * M_PI, Eigen::Vector3d::UnitX()));
     for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
         const auto& of = scene.bodies[i];
