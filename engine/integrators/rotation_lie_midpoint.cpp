@@ -27,7 +27,10 @@ template <class R>
 void cosSincOfAny(R x2, R& cosine, R& sinc) {
     int halvings = 0;
     for (; x2 > R(1.0 / 16) && halvings < 64; ++halvings) x2 *= R(0.25);
-    if (!(x2 <= R(1.0 / 16))) x2 = R(0), halvings = 0;
+    if (!(x2 <= R(1.0 / 16))) {
+        x2 = R(0);
+        halvings = 0;
+    }
     cosSinc(x2, cosine, sinc);
     for (; halvings > 0; --halvings) {
         sinc *= cosine;
