@@ -11,6 +11,9 @@
 namespace rigor::engine {
 namespace {
 
+/// Largest overlap at the end of a step in which bodies have collided, of the smaller inscribed radius.
+constexpr double kDeepest = 0.02;
+
 void keepOnce(std::vector<std::uint32_t>& list) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -181,7 +184,7 @@ bool FlightImpacts<S>::runCluster(const MovedWorld<S>& world, std::uint32_t clus
         ok = impacts < kMaxImpacts && !ways_[a].held && !ways_[b].held && collide(world, hit, events) &&
              searchAgain(world, hit, cluster);
     }
-    if (!ok) {
+    if (!ok || sinksIn(world)) {
         for (std::size_t k = 0; k < members_.size(); ++k) {
             bodies.pose[members_[k]] = saved_[k].first;
             bodies.velocity[members_[k]] = saved_[k].second;
@@ -196,6 +199,17 @@ bool FlightImpacts<S>::runCluster(const MovedWorld<S>& world, std::uint32_t clus
         collided_[i] = 1;
     }
     return true;
+}
+
+/// True if bodies of the cluster overlap at the end of the step: one that turns about a corner that touches brings others
+/// below the surface.
+template <class S>
+bool FlightImpacts<S>::sinksIn(const MovedWorld<S>& world) const {
+    const ShapeSet<S>& shapes = world.contacts.shapes();
+    return std::any_of(clusterPairs_.begin(), clusterPairs_.end(), [&](const Pair& pair) {
+        const Real thin = std::min({shapes[pair.a].inscribedRadius, shapes[pair.b].inscribedRadius, Real(1)});
+        return look(world, pair, world.h).distance < -static_cast<Real>(kDeepest) * thin;
+    });
 }
 
 /// The touches to come after a hit. False: the cluster is left to the step.

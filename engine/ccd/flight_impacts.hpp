@@ -24,7 +24,8 @@
 //   - one of its bodies comes near a body that is not in flight, or a chain, mesh or height field,
 //   - shapes overlap already when the step begins, or approach each other more slowly than that,
 //   - there are more than kMaxImpacts impacts: chattering, which ends in contact,
-//   - a body meets a second one while it is in contact.
+//   - a body meets a second one while it is in contact,
+//   - bodies overlap at the end of the step: one that turns about a corner brings others below the surface.
 //
 // Cost: a broad phase of all shapes' ways in steps with bodies in flight; the closest points of the
 // pairs that come near each other, about twice each; and what an impact takes.
@@ -122,6 +123,7 @@ class FlightImpacts {
     ClosestPoints<S> look(const MovedWorld<S>& world, const Pair& pair, Real t) const;
 
     bool runCluster(const MovedWorld<S>& world, std::uint32_t cluster, std::vector<ImpactEvent<S>>& events);
+    bool sinksIn(const MovedWorld<S>& world) const;
     bool collide(const MovedWorld<S>& world, const Pair& pair, std::vector<ImpactEvent<S>>& events);
     bool searchFrom(const MovedWorld<S>& world, std::uint32_t body, std::uint32_t cluster);
     bool searchAgain(const MovedWorld<S>& world, const Pair& hit, std::uint32_t cluster);

@@ -122,5 +122,50 @@ TYPED_TEST(FlightImpact, ALandingIsShownOnce) {
     EXPECT_NEAR(world.velocity(ball).norm(), 0, 1e-9);
 }
 
+/// Bricks that fall on the ground at 8 m/s and turn fast, in all orientations, without restitution. One that lands on a
+/// corner turns about it by up to half a radian in the rest of the step; the corners that come down next stay up, too.
+TYPED_TEST(FlightImpact, ABrickThatTurnsAboutACornerDoesNotSinkIn) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    typename S::Vec half = at<S>(0.25, 0.125), wide = at<S>(50, 0.5);
+    if constexpr (S::dim == 3) {
+        half.z() = R(0.125);
+        wide.z() = R(50);
+    }
+    const Shape<S> brick = Box<S>{half}, ground = Box<S>{wide};
+    double deepest = 0;
+    for (int k = 0; k < 60; ++k) {
+        World<S> world(WorldDef<S>{});
+        const std::uint32_t stuff = world.addMaterial(R(0.6), 0);
+        BodyDef<S> floor;
+        floor.type = BodyType::Static;
+        floor.pose.p = at<S>(0, -0.5);
+        world.addShape(world.addBody(floor), {ground, {}, stuff});
+        const MassProperties<S> m = massProperties<S>(brick, R(2000));
+        BodyDef<S> body;
+        body.mass = m.mass;
+        body.inertia = m.inertia;
+        body.pose.p = at<S>(0, 0.6 + 0.002 * k);
+        body.velocity = at<S>(2, -8);
+        if constexpr (S::dim == 3) {
+            body.pose.q = expMap(typename S::Vec(R(0.3 * k), R(0.17 * k), R(-0.11 * k)));
+            body.angularVelocity =
+                typename S::Vec(R(8 * std::sin(k)), R(8 * std::cos(2 * k)), R(8 * std::cos(k)));
+        } else {
+            body.pose.q = expMap(R(0.3 * k));
+            body.angularVelocity = R(10 * std::sin(k));
+        }
+        const BodyId id = world.addBody(body);
+        world.addShape(id, {brick, {}, stuff});
+        for (int step = 0; step < 12; ++step) {
+            world.step(R(1) / 60);
+            const Pose<S> under{at<S>(0, -0.5), Pose<S>::identityRot()};
+            deepest =
+                std::max(deepest, -double(closestPoints<S>(ground, under, brick, world.pose(id)).distance));
+        }
+    }
+    EXPECT_LT(deepest, 0.04);
+}
+
 }  // namespace
 }  // namespace rigor::engine::test
