@@ -19,6 +19,12 @@ void keepOnce(std::vector<std::uint32_t>& list) {
     list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+/// The smaller of two shapes' inscribed radii, at most 1 m.
+template <class S>
+typename S::Real thickness(const ShapeRecord<S>& a, const ShapeRecord<S>& b) {
+    return std::min({a.inscribedRadius, b.inscribedRadius, typename S::Real(1)});
+}
+
 /// True if the step has stopped bodies at a gap that they were closing.
 template <class S>
 bool stopsAtGap(const Contact<S>& contact) {
@@ -207,8 +213,8 @@ template <class S>
 bool FlightImpacts<S>::sinksIn(const MovedWorld<S>& world) const {
     const ShapeSet<S>& shapes = world.contacts.shapes();
     return std::any_of(clusterPairs_.begin(), clusterPairs_.end(), [&](const Pair& pair) {
-        const Real thin = std::min({shapes[pair.a].inscribedRadius, shapes[pair.b].inscribedRadius, Real(1)});
-        return look(world, pair, world.h).distance < -static_cast<Real>(kDeepest) * thin;
+        return look(world, pair, world.h).distance <
+               -static_cast<Real>(kDeepest) * thickness<S>(shapes[pair.a], shapes[pair.b]);
     });
 }
 
@@ -251,8 +257,8 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
     const std::uint32_t a = sa.body, b = sb.body;
     const Real t = pair.touch.time;
     const Pose<S> A = ways_[a].at(t), B = ways_[b].at(t);
-    const Real thin = std::min({sa.inscribedRadius, sb.inscribedRadius, Real(1)});
-    const Real near = std::max(Real(1e-6) * thin, Real(4) * touchingDistance<S>(A, B, pair.touch.closest));
+    const Real near =
+        std::max(Real(1e-6) * thickness<S>(sa, sb), Real(4) * touchingDistance<S>(A, B, pair.touch.closest));
     manifold_ = {};
     world.narrowPhase.collide(sa.shape, compose<S>(A, sa.local), sb.shape, compose<S>(B, sb.local), near,
                               manifold_);

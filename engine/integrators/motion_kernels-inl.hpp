@@ -159,12 +159,6 @@ HWY_INLINE Vec3<V> solve3(const Vec3<V>& a0, const Vec3<V>& a1, const Vec3<V>& a
     return {dot(b, a12) * scale, dot(moment(a2, a0), b) * scale, dot(moment(a0, a1), b) * scale};
 }
 
-/// a + s b
-template <class V>
-HWY_INLINE Vec3<V> plus(const Vec3<V>& a, const V& s, const Vec3<V>& b) {
-    return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
-}
-
 /// One of Newton's steps of LieMidpoint::turn: from W to W - step; half is h/2.
 template <class V>
 HWY_INLINE Vec3<V> newtonStep(const std::array<V, 6>& I, const Vec3<V>& momentum, const Vec3<V>& W, V half) {
@@ -174,14 +168,21 @@ HWY_INLINE Vec3<V> newtonStep(const std::array<V, 6>& I, const Vec3<V>& momentum
     cosSincOfAny(x2, c, sinc);
     const V s = half * sinc;
     const Vec3<V> Pi = times(I, W), change = minus(Pi, momentum), across = moment(W, Pi);
-    const Vec3<V> none{zero, zero, zero}, f = plus(plus(none, c, change), s, across);
+    const Vec3<V> none{zero, zero, zero};
+    Vec3<V> f = none, slope = none;
+    add(f, c, change);
+    add(f, s, across);
     const V third = half * (constant<V>(1.0 / 3) - x2 * constant<V>(1.0 / 30));
-    const Vec3<V> slope =
-        plus(plus(none, zero - half * half * sinc, change), zero - half * half * third, across);
+    subtract(slope, half * half * sinc, change);
+    subtract(slope, half * half * third, across);
     // Column k of c I + s ([W]x I - [Pi]x) + slope W^T; `turned` is that of -[Pi]x.
     const auto column = [&](const Vec3<V>& inertia, const Vec3<V>& turned, const V& speed) {
-        return plus(plus(plus(none, c, inertia), s, plus(moment(W, inertia), constant<V>(1), turned)), speed,
-                    slope);
+        Vec3<V> turning = moment(W, inertia), sum = none;
+        add(turning, constant<V>(1), turned);
+        add(sum, c, inertia);
+        add(sum, s, turning);
+        add(sum, speed, slope);
+        return sum;
     };
     return solve3(column({I[0], I[1], I[2]}, {zero, zero - Pi[2], Pi[1]}, W[0]),
                   column({I[1], I[3], I[4]}, {Pi[2], zero, zero - Pi[0]}, W[1]),
