@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <deque>
+#include <numbers>
 #include <numeric>
 
 #include "adapters/interface/principal_axes.hpp"
@@ -168,6 +169,29 @@ LinkMotion motionOf(const Forest& forest, const Scenario& scenario, int body,
     m.turned = conjugate(link.rest.orientation) * m.relative.orientation;
     if (m.turned.w < 0.0) m.turned = {-m.turned.w, -m.turned.x, -m.turned.y, -m.turned.z};
     return m;
+}
+
+/// With s the place of the anchor in the axes of a reversed link, d/dt s = R^T v - w x s: v is the velocity of the anchor
+/// against the parent, w the link's angular velocity against it, in the link's axes.
+Travel travelOf(const Link& link, const LinkMotion& motion, const Vec3& axis) {
+    if (!link.reversed) {
+        const Vec3 along = rotate(link.rest.orientation, axis);
+        const Vec3 moved = motion.relative * motion.anchor - link.rest * motion.anchor;
+        return {dot(moved, along), dot(rotateInverse(motion.parent.orientation, motion.speed), along)};
+    }
+    const Vec3 moved = motion.anchor - inverse(motion.relative) * (link.rest * motion.anchor);
+    const Vec3 speed = rotateInverse(motion.pose.orientation, motion.speed) - cross(motion.turn, moved);
+    return {dot(moved, axis), dot(speed, axis)};
+}
+
+double nearestTurn(double angle, double now) {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    return angle + kTurn * std::round((now - angle) / kTurn);
+}
+
+double turnAbout(const LinkMotion& motion, const Vec3& axis) {
+    const Quat& q = motion.turned;
+    return 2.0 * std::atan2(dot(Vec3{q.x, q.y, q.z}, axis), q.w);
 }
 
 Damping dampingOf(const Body& body, const Link& link, const BodyState& state, double dt) {

@@ -59,6 +59,18 @@ struct LinkMotion {
 LinkMotion motionOf(const Forest& forest, const Scenario& scenario, int body,
                     std::span<const BodyState> states);
 
+/// Coordinate of a travel since the initial poses, and its rate.
+struct Travel {
+    double length = 0.0, speed = 0.0;  ///< [m], [m/s]
+};
+/// Travel along `axis` (unit, axes of the body that hangs on the joint, at the initial poses). A link that is not
+/// reversed travels before it turns, along axes of its parent; a reversed one turns first and travels along its own.
+Travel travelOf(const Link& link, const LinkMotion& motion, const Vec3& axis);
+/// The angle plus the number of whole turns that brings it nearest to `now` [rad]: limits and springs count turns.
+double nearestTurn(double angle, double now);
+/// Angle by which the body has turned since the initial poses, about the unit `axis` [rad].
+double turnAbout(const LinkMotion& motion, const Vec3& axis);
+
 /// Force and torque at the centre of mass that damp a body: a step of `dt` with nothing else leaves kept^dt of its
 /// velocities.
 struct Damping {

@@ -3,27 +3,11 @@
 //
 // Poses and velocities of bodies as MuJoCo's coordinates: those of a free body are its own, those of a body that hangs
 // on a joint are relative to the body it hangs on. What its joint does not allow is lost.
-#include <cmath>
-#include <numbers>
-
 #include "adapters/mujoco/world.hpp"
 
 namespace rigor::mujoco {
 
 using adapter::BodyState;
-using scenario::Joint;
-using scenario::JointType;
-
-namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
-
-/// The angle in the turn nearest to where the coordinate is: MuJoCo counts turns, and limits with them.
-double near(double angle, double now) {
-    return angle + kTurn * std::round((now - angle) / kTurn);
-}
-
-}  // namespace
 
 /// World pose of MuJoCo's frame of a body.
 Pose MujocoWorld::linkPose(int body, const BodyState& state) const {
@@ -38,7 +22,7 @@ void MujocoWorld::placeFree(int body, const Pose& pose, const BodyState& state) 
     if (planar_) {
         q[0] = pose.position.x;
         q[1] = pose.position.y;
-        q[2] = near(angleAboutZ(pose.orientation), q[2]);
+        q[2] = adapter::nearestTurn(angleAboutZ(pose.orientation), q[2]);
         v[0] = state.velocity.x;
         v[1] = state.velocity.y;
         v[2] = state.angularVelocity.z;
@@ -55,32 +39,25 @@ void MujocoWorld::placeLink(int body, std::span<const BodyState> states) {
     if (link.fixed) return;
     if (link.joint == kNone) return placeFree(body, linkPose(body, states[body]), states[body]);
     const mjModel& model = *model_.model;
-    const Joint& joint = scenario_.joints[link.joint];
     const int id = model_.bodies[body], first = model.body_jntadr[id];
-    const auto [anchor, own, parent, relative, turned, turn, speed] =
-        adapter::motionOf(model_.forest, scenario_, body, states);
+    const adapter::LinkMotion motion = adapter::motionOf(model_.forest, scenario_, body, states);
     for (int k = 0; k < model.body_jntnum[id]; ++k) {
         mjtNum* q = data_->qpos + model.jnt_qposadr[first + k];
         mjtNum* v = data_->qvel + model.jnt_dofadr[first + k];
         const Vec3 axis = fromMujoco(model.jnt_axis + 3 * (first + k));
         switch (model.jnt_type[first + k]) {
             case mjJNT_BALL:
-                toMujoco(turned, q);
-                toMujoco(turn, v);
+                toMujoco(motion.turned, q);
+                toMujoco(motion.turn, v);
                 break;
             case mjJNT_HINGE:
-                q[0] = near(2.0 * std::atan2(dot(Vec3{turned.x, turned.y, turned.z}, axis), turned.w), q[0]);
-                v[0] = dot(turn, axis);
+                q[0] = adapter::nearestTurn(adapter::turnAbout(motion, axis), q[0]);
+                v[0] = dot(motion.turn, axis);
                 break;
             default: {
-                // A reversed wheel or six_dof slides along its own axis, everything else along one of its parent's.
-                const bool byItself =
-                    link.reversed && (joint.type == JointType::Wheel || joint.type == JointType::SixDof);
-                const Vec3 along = rotate(byItself ? Quat{} : link.rest.orientation, axis);
-                const Vec3 moved = byItself ? anchor - inverse(relative) * (link.rest * anchor)
-                                            : relative * anchor - link.rest * anchor;
-                q[0] = dot(moved, along);
-                v[0] = dot(speed, rotate(byItself ? own.orientation : parent.orientation, along));
+                const adapter::Travel travel = adapter::travelOf(link, motion, axis);
+                q[0] = travel.length;
+                v[0] = travel.speed;
             }
         }
     }

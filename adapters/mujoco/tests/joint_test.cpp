@@ -5,8 +5,7 @@
 // equality constraint or refused by name.
 #include <cmath>
 
-#include "adapters/interface/state_setting.hpp"
-#include "adapters/interface/tests/scenes.hpp"
+#include "adapters/interface/tests/joint_states.hpp"
 
 namespace rigor::test {
 namespace {
@@ -183,6 +182,19 @@ TEST(MujocoJoints, StatesOfATreeCanBeSet) {
     for (const int body : {a, b}) {
         EXPECT_LT(norm(first.state(body).position - second.state(body).position), 1e-9);
         EXPECT_LT(norm(first.state(body).angularVelocity - second.state(body).angularVelocity), 1e-8);
+    }
+}
+
+/// Travels with one turn and with all of them free, and a wheel whose pin is no axis of its strut.
+TEST(MujocoJoints, StatesThatTheJointAllowsAreSetAndReadBack) {
+    const std::vector<std::vector<std::size_t>> cases{{0, 1, 2}, {0, 4}, {0, 1, 2, 5}, {0, 1, 2, 3, 4, 5}};
+    for (const bool reversed : {false, true}) {
+        SCOPED_TRACE(reversed ? "reversed" : "");
+        for (const auto& open : cases) {
+            SCOPED_TRACE(std::to_string(open.size()) + " open");
+            expectStateReadBack(Arm(JointType::SixDof, reversed).open(open));
+        }
+        expectStateReadBack(Arm(JointType::Wheel, reversed).open({0, 1}));
     }
 }
 

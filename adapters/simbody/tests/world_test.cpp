@@ -5,7 +5,7 @@
 // break, impulses within a mechanism.
 #include <cmath>
 
-#include "adapters/interface/tests/scenes.hpp"
+#include "adapters/interface/tests/joint_states.hpp"
 
 namespace rigor::test {
 namespace {
@@ -265,6 +265,19 @@ TEST(SimbodyWorld, TravelAndTurnAreCoordinatesOfOneJoint) {
         EXPECT_NEAR(end.position.y, 0.5, 1e-8);
         EXPECT_NEAR(end.position.x, 0.3 * std::cos(2.0), 1e-6);
         EXPECT_NEAR(end.angularVelocity.y, 2.0, 1e-9);
+    }
+}
+
+/// Travels with one turn and with all of them free, and a wheel whose pin is no axis of its strut.
+TEST(SimbodyWorld, StatesThatTheJointAllowsAreSetAndReadBack) {
+    const std::vector<std::vector<std::size_t>> cases{{0, 1, 2}, {0, 4}, {0, 1, 2, 5}, {0, 1, 2, 3, 4, 5}};
+    for (const bool reversed : {false, true}) {
+        SCOPED_TRACE(reversed ? "reversed" : "");
+        for (const auto& open : cases) {
+            SCOPED_TRACE(std::to_string(open.size()) + " open");
+            expectStateReadBack(Arm(JointType::SixDof, reversed).open(open));
+        }
+        expectStateReadBack(Arm(JointType::Wheel, reversed).open({0, 1}));
     }
 }
 
