@@ -5,7 +5,6 @@
 #include "adapters/dart/world.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <dart/collision/CollisionFilter.hpp>
 #include <dart/collision/CollisionGroup.hpp>
 #include <dart/collision/CollisionObject.hpp>
@@ -17,6 +16,7 @@
 #include "adapters/dart/shapes.hpp"
 #include "adapters/interface/joint_springs.hpp"
 #include "adapters/interface/planar.hpp"
+#include "adapters/interface/snapshot_numbers.hpp"
 
 namespace rigor::dart_adapter {
 
@@ -295,57 +295,47 @@ adapter::Snapshots* DartWorld::snapshots() {
 }
 
 void DartWorld::save(std::vector<unsigned char>& bytes) const {
-    std::vector<double> numbers;
-    const auto put = [&](const Eigen::VectorXd& values) {
-        numbers.insert(numbers.end(), values.data(), values.data() + values.size());
+    adapter::NumberWriter out(bytes);
+    const auto putAll = [&](const Eigen::VectorXd& values) {
+        out.put(std::span(values.data(), static_cast<std::size_t>(values.size())));
     };
-    const auto putVector = [&](const Vec3& v) { numbers.insert(numbers.end(), {v.x, v.y, v.z}); };
     for (const auto& skeleton : model_.skeletons) {
-        put(skeleton->getPositions());
-        put(skeleton->getVelocities());
+        putAll(skeleton->getPositions());
+        putAll(skeleton->getVelocities());
     }
     for (const BodyState& state : prescribed_) {
-        putVector(state.position);
-        const Quat& q = state.orientation;
-        numbers.insert(numbers.end(), {q.w, q.x, q.y, q.z});
+        out.put(state.position);
+        out.put(state.orientation);
     }
     for (const Wrench& wrench : forces_) {
-        putVector(wrench.force);
-        putVector(wrench.torque);
+        out.put(wrench.force);
+        out.put(wrench.torque);
     }
-    for (const LoopJoint& joint : model_.loops) numbers.push_back(joint.holds() ? 1.0 : 0.0);
-    bytes.resize(numbers.size() * sizeof(double));
-    std::memcpy(bytes.data(), numbers.data(), bytes.size());
+    for (const LoopJoint& joint : model_.loops) out.put(joint.holds() ? 1.0 : 0.0);
 }
 
 bool DartWorld::restore(const std::vector<unsigned char>& bytes) {
     std::vector<unsigned char> now;
     save(now);
     if (bytes.size() != now.size()) return false;
-    std::vector<double> numbers(bytes.size() / sizeof(double));
-    std::memcpy(numbers.data(), bytes.data(), bytes.size());
-    const double* from = numbers.data();
-    const auto take = [&] { return *from++; };
-    const auto takeVector = [&] {
-        const double x = take(), y = take(), z = take();
-        return Vec3{x, y, z};
-    };
+    adapter::NumberReader in(bytes);
     for (const auto& skeleton : model_.skeletons) {
-        const auto count = static_cast<Eigen::Index>(skeleton->getNumDofs());
-        skeleton->setPositions(Eigen::Map<const Eigen::VectorXd>(from, count));
-        skeleton->setVelocities(Eigen::Map<const Eigen::VectorXd>(from + count, count));
-        from += 2 * count;
+        Eigen::VectorXd values(static_cast<Eigen::Index>(skeleton->getNumDofs()));
+        const std::span all(values.data(), skeleton->getNumDofs());
+        in.take(all);
+        skeleton->setPositions(values);
+        in.take(all);
+        skeleton->setVelocities(values);
     }
     for (BodyState& state : prescribed_) {
-        state.position = takeVector();
-        const double w = take(), x = take(), y = take(), z = take();
-        state.orientation = {w, x, y, z};
+        state.position = in.takeVector();
+        state.orientation = in.takeQuat();
     }
     for (Wrench& wrench : forces_) {
-        wrench.force = takeVector();
-        wrench.torque = takeVector();
+        wrench.force = in.takeVector();
+        wrench.torque = in.takeVector();
     }
-    for (LoopJoint& joint : model_.loops) joint.setHolds(take() != 0.0);
+    for (LoopJoint& joint : model_.loops) joint.setHolds(in.take() != 0.0);
     useJointsThatHold();
     escaped_ = false;
     return true;

@@ -11,6 +11,7 @@
 
 #include "adapters/interface/joint_springs.hpp"
 #include "adapters/interface/planar.hpp"
+#include "adapters/interface/snapshot_numbers.hpp"
 
 namespace rigor::mujoco {
 
@@ -249,15 +250,13 @@ void MujocoWorld::putState(const State& state) {
 }
 
 void MujocoWorld::save(std::vector<unsigned char>& bytes) const {
-    const State state = keepState();
-    bytes.resize(state.numbers.size() * sizeof(mjtNum));
-    std::memcpy(bytes.data(), state.numbers.data(), bytes.size());
+    adapter::NumberWriter(bytes).put(keepState().numbers);
 }
 
 bool MujocoWorld::restore(const std::vector<unsigned char>& bytes) {
     State state = keepState();
     if (bytes.size() != state.numbers.size() * sizeof(mjtNum)) return false;
-    std::memcpy(state.numbers.data(), bytes.data(), bytes.size());
+    adapter::NumberReader(bytes).take(state.numbers);
     putState(state);
     reset_ = false;
     updatePairs();

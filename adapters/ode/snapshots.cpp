@@ -11,50 +11,12 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "adapters/interface/snapshot_numbers.hpp"
 #include "adapters/ode/convert.hpp"
 #include "adapters/ode/world.hpp"
 
 namespace rigor::ode {
 namespace {
-
-class Writer {
-  public:
-    explicit Writer(std::vector<unsigned char>& bytes) : bytes_(bytes) { bytes_.clear(); }
-    void put(double value) {
-        const std::size_t at = bytes_.size();
-        bytes_.resize(at + sizeof value);
-        std::memcpy(bytes_.data() + at, &value, sizeof value);
-    }
-    void put(const dReal* values, int count) {
-        for (int i = 0; i < count; ++i) put(values[i]);
-    }
-
-  private:
-    std::vector<unsigned char>& bytes_;
-};
-
-class Reader {
-  public:
-    explicit Reader(const std::vector<unsigned char>& bytes) : bytes_(bytes) {}
-    double get() {
-        if (at_ + sizeof(double) > bytes_.size())
-            throw std::runtime_error("ode: a snapshot that is too short");
-        double value = 0.0;
-        std::memcpy(&value, bytes_.data() + at_, sizeof value);
-        at_ += sizeof value;
-        return value;
-    }
-    template <std::size_t N>
-    std::array<double, N> get() {
-        std::array<double, N> values;
-        for (double& value : values) value = get();
-        return values;
-    }
-
-  private:
-    const std::vector<unsigned char>& bytes_;
-    std::size_t at_ = 0;
-};
 
 bool holds(dBodyID body, const std::array<double, 4>& q) {
     return std::memcmp(dBodyGetQuaternion(body), q.data(), sizeof q) == 0;
@@ -75,30 +37,29 @@ bool setOrientation(dBodyID body, const std::array<double, 4>& q) {
 }  // namespace
 
 void OdeWorld::save(std::vector<unsigned char>& bytes) const {
-    Writer out(bytes);
-    for (const auto& joint : joints_)
-        for (const double value : joint->memory()) out.put(value);
+    adapter::NumberWriter out(bytes);
+    const auto put = [&](const dReal* values, std::size_t count) { out.put(std::span(values, count)); };
+    for (const auto& joint : joints_) out.put(joint->memory());
     for (const auto& record : records_) {
         if (record->body == nullptr) continue;
-        out.put(dBodyGetPosition(record->body), 3);
-        out.put(dBodyGetQuaternion(record->body), 4);
-        out.put(dBodyGetLinearVel(record->body), 3);
-        out.put(dBodyGetAngularVel(record->body), 3);
-        out.put(dBodyGetForce(record->body), 3);
-        out.put(dBodyGetTorque(record->body), 3);
+        put(dBodyGetPosition(record->body), 3);
+        put(dBodyGetQuaternion(record->body), 4);
+        put(dBodyGetLinearVel(record->body), 3);
+        put(dBodyGetAngularVel(record->body), 3);
+        put(dBodyGetForce(record->body), 3);
+        put(dBodyGetTorque(record->body), 3);
         out.put(record->turnPending ? 1.0 : 0.0);
-        const Quat& from = record->turnFrom;
-        for (const double c : {from.w, from.x, from.y, from.z}) out.put(c);
+        out.put(record->turnFrom);
     }
 }
 
 bool OdeWorld::restore(const std::vector<unsigned char>& bytes) {
-    Reader in(bytes);
+    adapter::NumberReader in(bytes);
     std::vector<std::vector<double>> memories;
     for (const auto& joint : joints_) {
         std::vector<double> memory = joint->memory();
         const double held = memory.front();
-        for (double& value : memory) value = in.get();
+        in.take(memory);
         if (memory.front() != held) return false;
         memories.push_back(std::move(memory));
     }
@@ -106,18 +67,18 @@ bool OdeWorld::restore(const std::vector<unsigned char>& bytes) {
     for (const auto& record : records_) {
         if (record->body == nullptr) continue;
         const dBodyID body = record->body;
-        const auto p = in.get<3>();
-        const auto q = in.get<4>();
-        const auto v = in.get<3>(), w = in.get<3>(), f = in.get<3>(), t = in.get<3>();
-        dBodySetPosition(body, p[0], p[1], p[2]);
+        const Vec3 p = in.takeVector();
+        std::array<double, 4> q;
+        in.take(q);
+        const Vec3 v = in.takeVector(), w = in.takeVector(), f = in.takeVector(), t = in.takeVector();
+        dBodySetPosition(body, p.x, p.y, p.z);
         if (!setOrientation(body, q)) throw std::runtime_error("ode: an orientation that ODE does not take");
-        dBodySetLinearVel(body, v[0], v[1], v[2]);
-        dBodySetAngularVel(body, w[0], w[1], w[2]);
-        dBodySetForce(body, f[0], f[1], f[2]);
-        dBodySetTorque(body, t[0], t[1], t[2]);
-        record->turnPending = in.get() != 0.0;
-        const auto from = in.get<4>();
-        record->turnFrom = {from[0], from[1], from[2], from[3]};
+        dBodySetLinearVel(body, v.x, v.y, v.z);
+        dBodySetAngularVel(body, w.x, w.y, w.z);
+        dBodySetForce(body, f.x, f.y, f.z);
+        dBodySetTorque(body, t.x, t.y, t.z);
+        record->turnPending = in.take() != 0.0;
+        record->turnFrom = in.takeQuat();
     }
     return true;
 }

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <variant>
 
 #include "adapters/interface/joint_springs.hpp"
 #include "adapters/interface/planar.hpp"
+#include "adapters/interface/snapshot_numbers.hpp"
 #include "adapters/simbody/integrators.hpp"
 
 namespace rigor::simbody {
@@ -177,49 +177,48 @@ void SimbodyWorld::setStates(std::span<const BodyState> states) {
 }
 
 void SimbodyWorld::save(std::vector<unsigned char>& bytes) const {
-    std::vector<double> numbers{static_cast<double>(steps_), next_, state_.getTime()};
-    const auto put = [&](const Vector& from) {
-        for (int i = 0; i < from.size(); ++i) numbers.push_back(from[i]);
+    adapter::NumberWriter out(bytes);
+    const auto putAll = [&](const Vector& from) {
+        for (int i = 0; i < from.size(); ++i) out.put(from[i]);
     };
-    put(state_.getQ());
-    put(state_.getU());
-    for (const LoopJoint& joint : model_->loops) numbers.push_back(joint.holds(state_) ? 1.0 : 0.0);
-    for (const bool near : nearSpeed_) numbers.push_back(near ? 1.0 : 0.0);
-    for (const Wrench& wrench : forces_)
-        for (const Vec3& v : {wrench.force, wrench.torque}) numbers.insert(numbers.end(), {v.x, v.y, v.z});
-    bytes.resize(numbers.size() * sizeof(double));
-    std::memcpy(bytes.data(), numbers.data(), bytes.size());
+    out.put(static_cast<double>(steps_));
+    out.put(next_);
+    out.put(state_.getTime());
+    putAll(state_.getQ());
+    putAll(state_.getU());
+    for (const LoopJoint& joint : model_->loops) out.put(joint.holds(state_) ? 1.0 : 0.0);
+    for (const bool near : nearSpeed_) out.put(near ? 1.0 : 0.0);
+    for (const Wrench& wrench : forces_) {
+        out.put(wrench.force);
+        out.put(wrench.torque);
+    }
 }
 
 bool SimbodyWorld::restore(const std::vector<unsigned char>& bytes) {
     std::vector<unsigned char> now;
     save(now);
     if (bytes.size() != now.size()) return false;
-    std::vector<double> numbers(bytes.size() / sizeof(double));
-    std::memcpy(numbers.data(), bytes.data(), bytes.size());
-    const double* from = numbers.data();
-    const auto take = [&] { return *from++; };
-    steps_ = static_cast<std::int64_t>(take());
-    next_ = take();
-    state_.setTime(take());
+    adapter::NumberReader in(bytes);
+    steps_ = static_cast<std::int64_t>(in.take());
+    next_ = in.take();
+    state_.setTime(in.take());
     const auto takeAll = [&](Vector& to) {
-        for (int i = 0; i < to.size(); ++i) to[i] = take();
+        for (int i = 0; i < to.size(); ++i) to[i] = in.take();
     };
     Vector q = state_.getQ(), u = state_.getU();
     takeAll(q);
     takeAll(u);
-    for (const LoopJoint& joint : model_->loops) joint.setHolds(state_, take() != 0.0);
-    for (std::size_t i = 0; i < nearSpeed_.size(); ++i) nearSpeed_[i] = take() != 0.0;
+    for (const LoopJoint& joint : model_->loops) joint.setHolds(state_, in.take() != 0.0);
+    for (std::size_t i = 0; i < nearSpeed_.size(); ++i) nearSpeed_[i] = in.take() != 0.0;
     releaseMotors();
     lost_ = false;
     model_->system.realizeModel(state_);
     state_.setQ(q);
     state_.setU(u);
-    for (Wrench& wrench : forces_)
-        for (Vec3* v : {&wrench.force, &wrench.torque}) {
-            const double x = take(), y = take(), z = take();
-            *v = {x, y, z};
-        }
+    for (Wrench& wrench : forces_) {
+        wrench.force = in.takeVector();
+        wrench.torque = in.takeVector();
+    }
     realize(Stage::Velocity);
     return true;
 }
