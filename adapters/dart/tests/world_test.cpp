@@ -35,6 +35,29 @@ TEST(DartWorld, AContactThatNoJointLetsMoveIsReportedAndNotSolved) {
     EXPECT_LE(norm(simulation.state(b).velocity), 1e-12);
 }
 
+/// A block slides over triangles of different lengths. FCL's contacts with their backs would stop it at the first one.
+TEST(DartWorld, ABlockSlidesOverTheTrianglesOfAChain) {
+    Scenario s = scene(0.5);
+    scenario::TriangleMesh mesh;
+    for (const double x : {-1.5, -1.0, -0.98, -0.7, -0.69, -0.28, 0.583, 0.603, 0.963, 4.0})
+        for (const double z : {-1.0, 1.0}) mesh.vertices.push_back({x, 0, z});
+    for (int i = 0; i + 3 < static_cast<int>(mesh.vertices.size()); i += 2) {
+        mesh.triangles.push_back({i, i + 1, i + 2});
+        mesh.triangles.push_back({i + 2, i + 1, i + 3});
+    }
+    addStatic(s, mesh);
+    const Vec3 half{0.25, 0.05, 0.5};
+    const int block = addBody(s, Box{half}, {-1, 0.05, 0}, 2.0, boxMoments(2.0, half));
+    s.bodies[block].velocity = {4, 0, 0};
+    for (const std::string phase : {"fcl_mesh", "ode"}) {
+        SCOPED_TRACE(phase);
+        Simulation simulation(s, 1.0 / 240.0, "preset=default,narrow_phase=" + phase);
+        simulation.steps(240);
+        EXPECT_NEAR(simulation.state(block).position.x + 1.0, 16.0 / (2.0 * 0.5 * 9.81), 0.02);
+        EXPECT_NEAR(simulation.state(block).position.y, 0.05, 1e-3);
+    }
+}
+
 /// A top that Euler's step in DART's coordinates drives beyond all bounds ends as numbers that are none, not in an
 /// assertion of the library.
 TEST(DartWorld, AnEscapedRunHasNoNumbersAndComesBackBySnapshot) {

@@ -110,6 +110,30 @@ TEST(PlainDart, MeshesFromBehind) {
     }
 }
 
+/// A box on a plane of triangles, the foremost of which it covers by 5 mm, by FCL's meshes. From behind, their contacts push
+/// it back along the plane: it covers them by less than its own height. So a box that slides over triangles which have both
+/// sides stops at the next one.
+TEST(PlainDart, ATriangleThatABoxBeginsToCoverPushesItBackFromBehind) {
+    const auto detector = fcl(FCLCollisionDetector::MESH);
+    scenario::TriangleMesh front;
+    for (const double x : {-2.0, 0.245, 2.0})
+        for (const double z : {-1.0, 1.0}) front.vertices.push_back({x, 0, z});
+    front.triangles = {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}};
+    scenario::TriangleMesh back = front;
+    for (auto& triangle : back.triangles) std::swap(triangle[1], triangle[2]);
+    const auto sideways = [&](const scenario::TriangleMesh& mesh) {
+        const auto contacts =
+            between(detector, meshShape(mesh), std::make_shared<BoxShape>(Eigen::Vector3d(0.5, 0.1, 1)),
+                    {0, 0.05 - 6e-9, 0});
+        EXPECT_GE(contacts.size(), 4u);
+        return std::count_if(contacts.begin(), contacts.end(), [](const auto& contact) {
+            return contact.normal.x() < -0.99 && std::abs(contact.penetrationDepth - 0.005) < 1e-4;
+        });
+    };
+    EXPECT_EQ(sideways(front), 0);
+    EXPECT_GE(sideways(back), 1);
+}
+
 /// A box that stands a millimetre deep in a greater one, by FCL's meshes. Where their ends lie in one plane, contacts
 /// there have sideways normals and depths of half a metre; where the greater one reaches farther, none has.
 TEST(PlainDart, PrismsWithEndsInOnePlaneTouchSideways) {
