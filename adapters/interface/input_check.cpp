@@ -318,17 +318,44 @@ std::vector<bool> bodiesThatTouch(Scenario scenario) {
     return touches;
 }
 
+/// Coefficients of materials and pairs, which an engine without shapes has no use for.
+void checkSurfaces(const Scenario& scenario, const Capabilities& capabilities, const Lacks& lacks) {
+    if (capabilities.shapes.empty()) return;
+    if (!capabilities.staticFriction) {
+        const auto sticks = [](const auto& m) { return m.staticFriction > m.friction; };
+        if (std::any_of(scenario.materials.begin(), scenario.materials.end(), sticks) ||
+            std::any_of(scenario.pairs.begin(), scenario.pairs.end(), sticks))
+            lacks("static_friction", "static friction apart from that of sliding");
+    }
+    const auto anySurface = [&](auto member) {
+        const auto is = [&](const auto& m) { return m.*member > 0.0; };
+        return std::any_of(scenario.materials.begin(), scenario.materials.end(), is);
+    };
+    const auto anyPair = [&](auto member) {
+        const auto is = [&](const auto& m) { return m.*member > 0.0; };
+        return std::any_of(scenario.pairs.begin(), scenario.pairs.end(), is);
+    };
+    if (!capabilities.rollingFriction && (anySurface(&scenario::Material::rollingFriction) ||
+                                          anyPair(&scenario::MaterialPair::rollingFriction)))
+        lacks("rolling_friction", "rolling friction");
+    if (!capabilities.torsionalFriction && (anySurface(&scenario::Material::torsionalFriction) ||
+                                            anyPair(&scenario::MaterialPair::torsionalFriction)))
+        lacks("torsional_friction", "torsional friction");
+}
+
 /// An engine without shapes runs bodies whose shapes only give them mass and a picture.
 void checkBodies(const Scenario& scenario, const Capabilities& capabilities, const Lacks& lacks) {
+    const bool hasContacts = !capabilities.shapes.empty();
     std::vector<bool> canTouch;
-    if (capabilities.shapes.empty()) canTouch = bodiesThatTouch(scenario);
+    if (!hasContacts) canTouch = bodiesThatTouch(scenario);
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
         const auto& body = scenario.bodies[i];
         const std::string user = "body '" + body.name + "'";
-        const bool touches = capabilities.shapes.empty() ? canTouch[i] : body.collides;
+        const bool touches = hasContacts ? body.collides : canTouch[i];
         for (const auto& shape : body.shapes) {
             const std::string name = geometryName(shape.geometry, scenario.dimension);
-            if (touches && !contains(capabilities.shapes, name)) lacks(name, "shape '" + name + "'", user);
+            if (touches && !contains(capabilities.shapes, name))
+                lacks(name, (hasContacts ? "shape '" : "rigid contact of shape '") + name + "'", user);
             if (touches && shape.surfaceVelocity.moves() && !capabilities.surfaceVelocity)
                 lacks("surface_velocity", "velocity of a surface over its body", user);
         }
@@ -367,26 +394,7 @@ void checkSupported(const Scenario& scenario, const Capabilities& capabilities, 
         const std::string name = std::to_string(scenario.dimension) + "D";
         lacks(name, name + " dynamics");
     }
-    if (!capabilities.staticFriction) {
-        const auto sticks = [](const auto& m) { return m.staticFriction > m.friction; };
-        if (std::any_of(scenario.materials.begin(), scenario.materials.end(), sticks) ||
-            std::any_of(scenario.pairs.begin(), scenario.pairs.end(), sticks))
-            lacks("static_friction", "static friction apart from that of sliding");
-    }
-    const auto anySurface = [&](auto member) {
-        const auto is = [&](const auto& m) { return m.*member > 0.0; };
-        return std::any_of(scenario.materials.begin(), scenario.materials.end(), is);
-    };
-    const auto anyPair = [&](auto member) {
-        const auto is = [&](const auto& m) { return m.*member > 0.0; };
-        return std::any_of(scenario.pairs.begin(), scenario.pairs.end(), is);
-    };
-    if (!capabilities.rollingFriction && (anySurface(&scenario::Material::rollingFriction) ||
-                                          anyPair(&scenario::MaterialPair::rollingFriction)))
-        lacks("rolling_friction", "rolling friction");
-    if (!capabilities.torsionalFriction && (anySurface(&scenario::Material::torsionalFriction) ||
-                                            anyPair(&scenario::MaterialPair::torsionalFriction)))
-        lacks("torsional_friction", "torsional friction");
+    checkSurfaces(scenario, capabilities, lacks);
     checkBodies(scenario, capabilities, lacks);
     checkJoints(scenario, capabilities, lacks);
 }

@@ -44,27 +44,9 @@ class SimbodyEngine final : public adapter::EngineWithPresets, public adapter::D
                     "cone_twist",    "wheel",         "wheel.motor",  "wheel.spring",    "six_dof",
                     "six_dof.motor", "six_dof.spring"};
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
-        for (const char* shape : {"sphere",
-                                  "box",
-                                  "capsule",
-                                  "cylinder",
-                                  "cone",
-                                  "ellipsoid",
-                                  "hull",
-                                  "half_space",
-                                  "triangle_mesh",
-                                  "height_field",
-                                  "circle",
-                                  "polygon",
-                                  "half_plane",
-                                  "segment",
-                                  "chain",
-                                  "static_friction",
-                                  "rolling_friction",
-                                  "torsional_friction",
-                                  "surface_velocity",
-                                  "contact_filters",
-                                  "shape_filters"})
+        for (const char* shape :
+             {"sphere", "box", "capsule", "cylinder", "cone", "ellipsoid", "hull", "half_space",
+              "triangle_mesh", "height_field", "circle", "polygon", "half_plane", "segment", "chain"})
             c.libraryLacks[shape] = kContacts;
         for (const char* joint : {"ball", "hinge", "slider", "distance", "cone_twist", "wheel", "six_dof"})
             c.libraryLacks[std::string(joint) + ".limit"] = kStops;

@@ -210,9 +210,15 @@ TEST(Supported, AnEngineWithoutShapesRunsWhatCanTouchNothing) {
     s.joints[0].breakForce = 10.0;
     EXPECT_THROW(checkSupported(s, c, "toy"), Unsupported) << "the joint keeps them apart until it breaks";
     s.joints.clear();
-    EXPECT_THROW(checkSupported(s, c, "toy"), Unsupported);
+    try {
+        checkSupported(s, c, "toy");
+        ADD_FAILURE() << "two bodies that touch";
+    } catch (const Unsupported& refused) {
+        EXPECT_TRUE(refused.lacking().starts_with("rigid contact of shape '")) << refused.what();
+    }
     s.bodies[0].collides = false;
-    EXPECT_NO_THROW(checkSupported(s, c, "toy"));
+    s.materials[0].rollingFriction = 0.1;
+    EXPECT_NO_THROW(checkSupported(s, c, "toy")) << "coefficients of surfaces that touch nothing";
 }
 
 TEST(Supported, ARefusalSaysWhoLacksIt) {
