@@ -39,7 +39,7 @@ std::vector<LedgerEntry> SimbodyWorld::ledger() const {
             "a constant speed while the force is enough, else one force per step",
             "whether it is enough is evaluated once per step");
     if (std::any_of(scenario_.joints.begin(), scenario_.joints.end(), adapter::canBreak))
-        add("breaking", "mean force of a step", "force at the end of a step",
+        add("breaking", "mean force of a step", "force at the start or the end of a step",
             "Simbody's multipliers are those of an instant");
     add("contacts", "none can be made", "none", "");
     add("sleeping", "off", "off");

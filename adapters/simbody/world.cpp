@@ -140,6 +140,7 @@ void SimbodyWorld::step() {
     if (lost_) return;
     prepareForces();
     if (!model_->motors.empty()) setMotors();
+    breakJoints();
     integrate();
     if (lost_) return;
     ++steps_;
@@ -147,7 +148,8 @@ void SimbodyWorld::step() {
     realize(Stage::Velocity);
 }
 
-/// A joint breaks where it bears more than its strength at the end of a step.
+/// A joint breaks where it bears more than its strength at the start of a step, under the forces of that step, or at its
+/// end.
 void SimbodyWorld::breakJoints() {
     for (const LoopJoint& joint : model_->loops) {
         if (!adapter::canBreak(scenario_.joints[joint.joint()]) || !joint.holds(state_)) continue;

@@ -63,7 +63,6 @@ class System {
         }
     }
 
-  private:
     std::vector<BodyState> states(const SimTK::State& at) const {
         system.realize(at, SimTK::Stage::Velocity);
         const auto vec = [](const SimTK::Vec3& v) { return Vec3{v[0], v[1], v[2]}; };
