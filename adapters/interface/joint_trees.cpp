@@ -171,8 +171,8 @@ LinkMotion motionOf(const Forest& forest, const Scenario& scenario, int body,
     return m;
 }
 
-/// With s the place of the anchor in the axes of a reversed link, d/dt s = R^T v - w x s: v is the velocity of the anchor
-/// against the parent, w the link's angular velocity against it, in the link's axes.
+/// The place s of the anchor in the axes of a reversed link changes by d/dt s = R^T v - w x s: v is the velocity of the
+/// anchor against the parent, w the link's angular velocity against it, in the link's axes.
 Travel travelOf(const Link& link, const LinkMotion& motion, const Vec3& axis) {
     if (!link.reversed) {
         const Vec3 along = rotate(link.rest.orientation, axis);

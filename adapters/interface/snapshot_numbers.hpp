@@ -16,7 +16,7 @@ namespace rigor::adapter {
 
 class NumberWriter {
   public:
-    /// What the bytes held is lost.
+    /// The writer clears the bytes.
     explicit NumberWriter(std::vector<unsigned char>& bytes) : bytes_(bytes) { bytes_.clear(); }
     void put(std::span<const double> numbers) {
         const std::size_t at = bytes_.size();
