@@ -36,7 +36,9 @@ class Surface : public DynamicsTest {
         s.bodies.back().shapes[0].material = 1;
         return index;
     }
+    /// True as well for an engine without shapes: the kit's bodies do not collide there, and their surfaces do not matter.
     bool refuses(const Scenario& s, const char* what) const {
+        if (engine().capabilities().shapes.empty()) return true;
         try {
             build(s, kSurfaceStep);
             return false;
