@@ -122,6 +122,16 @@ TEST_F(GuestCommands, ConformSaysWhatFails) {
     EXPECT_EQ(rigor("conform mine --only motions").code, 2);
 }
 
+/// An engine under the name of a guest that has a known deviation, and without it.
+TEST_F(GuestCommands, ConformNamesKnownDeviationsThatAreNotNeeded) {
+    write("rapier3d", "python");
+    const auto conform = rigor("conform rapier3d --only motion");
+    EXPECT_EQ(conform.code, 1);
+    EXPECT_THAT(conform.out,
+                HasSubstr(R"(deviations.cpp: {"rapier3d", "", "", 3, "center_of_mass_line", 0.0001})"));
+    EXPECT_THAT(conform.out, HasSubstr("does not conform"));
+}
+
 TEST_F(GuestCommands, ConformTakesModules) {
     const auto conform = rigor("conform ode --only description,state --markdown");
     EXPECT_EQ(conform.code, 0) << conform.out;
