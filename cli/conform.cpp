@@ -127,7 +127,7 @@ Counts countsOf(const Json& report) {
             if (test.contains("failures"))
                 for (const Json& failure : test.at("failures")) {
                     count.failures.push_back({name, failure.at("failure").get<std::string>()});
-                    if (!isOfDeviations) break;  // of a case the first message
+                    if (!isOfDeviations) break;  // a case has its first message alone
                 }
             else if (test.value("result", "") == "SKIPPED")
                 ++count.skipped;
