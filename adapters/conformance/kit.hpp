@@ -70,7 +70,7 @@ struct Deviation {
 /// Fails unless error <= tolerance, or <= that of the known deviation of this name.
 void expectWithin(const std::string& check, double error, double tolerance, const Arena& arena);
 /// Failures for deviations that were checked but never needed.
-std::vector<std::string> staleDeviations();
+std::vector<std::string> needlessDeviations();
 
 // ------------------------------------------------------------------------------------------ scenarios
 /// The base of all dynamics tests.

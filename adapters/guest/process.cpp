@@ -21,6 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kLogTail = 2000;  ///< bytes of the log that a message may quote
+/// Bytes of the log that are passed on in the time of one answer: a guest that writes without end fills no disk.
+constexpr std::size_t kLogPerAnswer = 64 << 10;
 constexpr auto kMemoryCheck = std::chrono::milliseconds(100);
 constexpr auto kGrace = std::chrono::milliseconds(300);  ///< time to end by itself, once its input has ended
 
@@ -185,14 +187,27 @@ bool Process::readSome() {
     return n != 0 && (n > 0 || errno == EAGAIN || errno == EINTR);
 }
 
-/// Passes the log on to this process's own, a bounded piece at a time.
+/// Passes so much of a piece of the log on to this process's own as may still be passed on, and says once where it ends.
+void Process::passOn(const char* text, std::size_t size) {
+    if (passedOn_ > kLogPerAnswer) return;
+    const std::size_t passed = std::min(size, kLogPerAnswer - passedOn_);
+    (void)!write(STDERR_FILENO, text, passed);
+    passedOn_ += size;
+    if (passed == size) return;
+    const std::string cut = "\n[guest '" + name_ + "': its log goes on, but no more than " +
+                            std::to_string(kLogPerAnswer >> 10) +
+                            " KiB are passed on in the time of one answer]\n";
+    (void)!write(STDERR_FILENO, cut.data(), cut.size());
+}
+
+/// Reads one piece of the log.
 void Process::readLog() {
     char buffer[65536];
     if (guest_.log < 0) return;
     const ssize_t n = read(guest_.log, buffer, sizeof buffer);
     if (n == 0) closeFile(guest_.log);
     if (n <= 0) return;
-    (void)!write(STDERR_FILENO, buffer, static_cast<std::size_t>(n));
+    passOn(buffer, static_cast<std::size_t>(n));
     logTail_.append(buffer, static_cast<std::size_t>(n));
     if (logTail_.size() > kLogTail) logTail_.erase(0, logTail_.size() - kLogTail);
 }
@@ -219,6 +234,7 @@ Frame Process::exchange(const Frame& request, double seconds) {
         throw adapter::EngineFailure(Kind::Died, "guest '" + name_ + "': it has ended before");
     const std::string bytes = encode(request);
     std::size_t sent = 0;
+    passedOn_ = 0;
     writeSome(bytes, sent);
     AnswerLimit limit(guest_.pid, seconds);
     for (;;) {

@@ -42,6 +42,7 @@ class Process {
     void writeSome(const std::string& bytes, std::size_t& sent);
     bool readSome();  ///< false at the end of its output
     void readLog();
+    void passOn(const char* text, std::size_t size);
     void checkMemory();
     std::optional<Frame> nextFrame();
     void waitForEnd();
@@ -55,6 +56,7 @@ class Process {
     std::chrono::steady_clock::time_point memoryCheckAt_;
     FrameReader reader_;
     std::string logTail_;
+    std::size_t passedOn_ = 0;  ///< bytes of the log since the last request, passed on or cut
 };
 
 }  // namespace rigor::guest

@@ -27,6 +27,11 @@ constexpr const char* kFlight = R"({"rigor": 1, "name": "flight", "title": "A th
   "observe": ["ball"], "reference": {"free_flight": {"body": "ball"}}, "metrics": ["scheme_position_max"],
   "accept": {"*": {"scheme_position_max": 1e-11, "position_max": 0.0075, "velocity_max": 1e-11}}})";
 
+std::string textOf(const fs::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
 class GuestCommands : public testing::Test {
   protected:
     void SetUp() override {
@@ -88,10 +93,6 @@ TEST_F(GuestCommands, ANewEngineOfEveryGuestLanguageConforms) {
 TEST_F(GuestCommands, RunLetsAGuestOfResidentMemoryHaveItsAddresses) {
     write("mine", "python");
     const fs::path program = folder_ / "mine/mine.py", manifest = folder_ / "mine/rigor_adapter_mine.json";
-    const auto textOf = [](const fs::path& file) {
-        std::ifstream in(file);
-        return std::string{std::istreambuf_iterator<char>(in), {}};
-    };
     const std::string first = textOf(program), described = textOf(manifest);
     // It reserves 8 GiB of addresses, which it does not use.
     const int privateUnreserved = MAP_PRIVATE | MAP_NORESERVE;
@@ -120,6 +121,24 @@ TEST_F(GuestCommands, ConformSaysWhatFails) {
     EXPECT_THAT(conform.out, HasSubstr("FAILED Kit/Motion.FreeFlightFollowsTheClosedFormOfTheEnginesScheme"));
     EXPECT_THAT(conform.out, HasSubstr("does not conform"));
     EXPECT_EQ(rigor("conform mine --only motions").code, 2);
+}
+
+/// An engine under the name of a guest that has a known deviation, and without it.
+TEST_F(GuestCommands, ConformNamesKnownDeviationsThatAreNotNeeded) {
+    write("mine", "python");
+    const auto rename = [&](const char* from, const char* to) {
+        std::string text = textOf(folder_ / "mine" / from);
+        for (std::size_t at; (at = text.find("\"mine\"")) != std::string::npos;)
+            text.replace(at, 6, "\"rapier3d\"");
+        std::ofstream(folder_ / "mine" / to) << text;
+    };
+    rename("mine.py", "mine.py");
+    rename("rigor_adapter_mine.json", "rigor_adapter_rapier3d.json");
+    const auto conform = rigor("conform rapier3d --only motion");
+    EXPECT_EQ(conform.code, 1);
+    EXPECT_THAT(conform.out,
+                HasSubstr(R"(deviations.cpp: {"rapier3d", "", "", 3, "center_of_mass_line", 0.0001})"));
+    EXPECT_THAT(conform.out, HasSubstr("does not conform"));
 }
 
 TEST_F(GuestCommands, ConformTakesModules) {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Guests with one fault each: every one ends as one exception that names it, within its time.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -135,6 +136,24 @@ TEST(Guests, RefuseAsModulesDo) {
     }
     folder.addFaulty("bad_input");
     EXPECT_THROW(drive(folder), adapter::BadInput);
+}
+
+/// A guest that writes to its log without end has gigabytes to write before its time is over.
+TEST(Guests, HaveABoundedLog) {
+    const GuestFolder folder;
+    folder.addFaulty("endless_log");
+    const fs::path file = folder.path() / "log";
+    const int log = open(file.c_str(), O_CREAT | O_WRONLY, 0600), before = dup(STDERR_FILENO);
+    dup2(log, STDERR_FILENO);
+    EXPECT_THROW(drive(folder), EngineFailure);
+    dup2(before, STDERR_FILENO);
+    close(before);
+    close(log);
+    EXPECT_GT(fs::file_size(file), 64u << 10);
+    EXPECT_LT(fs::file_size(file), 65u << 10);
+    std::ifstream in(file);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_THAT(text, HasSubstr("[guest 'faulty': its log goes on"));
 }
 
 /// Every later request fails at once: nothing waits for a process that is dead.

@@ -53,7 +53,7 @@ for (const name of named.length > 0 ? named : engines) {
         const scene = read(each, preset);
         const guest = throughTheGuest(scene, `${name}:preset=${preset}`).slice(0, 1 + (program.steps?.[each] ?? Infinity));
         const distance = greatestDistance(program.start(scene), guest);
-        const isAlike = guest.length > 1 && distance <= program.bound;
+        const isAlike = guest.length > 1 && distance <= (program.bounds?.[each] ?? program.bound);
         failed += isAlike ? 0 : 1;
         const found = `${distance.toExponential(1)} m in ${guest.length - 1} steps`;
         console.log(`${isAlike ? 'alike ' : 'DIFFER'} ${name} ${preset} ${each}: ${found}`);
