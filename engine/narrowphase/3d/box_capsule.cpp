@@ -190,7 +190,7 @@ template <class R>
 bool overFace(const Core<R>& core, const Vec3<R>& n, Interval<R>& part) {
     int k;
     const R cosine = n.cwiseAbs().maxCoeff(&k);
-    if (!(cosine > kFlat<R>)) return false;
+    if (!(cosine >= kFlatFaces<R>)) return false;
     const R start = (core.p[k] - std::copysign(core.h[k], n[k])) / n[k], rise = core.d[k] / n[k];
     for (const int i : {(k + 1) % 3, (k + 2) % 3}) {
         const R from = core.p[i] - start * n[i], step = core.d[i] - rise * n[i];

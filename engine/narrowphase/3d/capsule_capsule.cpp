@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Two capsules: the closest points of their segments [Ericson2005, ch. 5.1.9], or, where the segments run
-// side by side, the two ends of their common stretch. Crossing segments are pushed apart along the common
-// perpendicular: the Minkowski difference of two segments is flat, so the cores' penetration is zero.
+// side by side, the two ends of their common stretch. Segments that cross at less than 26 degrees have both: where
+// capsules overlap deeply they do so along the stretch, and would turn about one point and sink further in. Crossing
+// segments are pushed apart along the common perpendicular: the Minkowski difference of two segments is flat, so the
+// cores' penetration is zero.
 #include "engine/narrowphase/detail.hpp"
 #include "engine/narrowphase/pairs.hpp"
 
@@ -36,6 +38,9 @@ void closestPair(const Segments<R>& s, R& y, R& t) {
 /// Sine of the angle between axes up to which two capsules lie side by side: about 3 degrees.
 template <class R>
 inline constexpr R kSideBySide = R(0.05);
+/// The same up to which the ends of their common stretch are points beside the closest one: 26 degrees.
+template <class R>
+inline constexpr R kNearlySideBySide = R(0.436);
 
 /// The contact normal. If the closest points are inside both segments it is the common perpendicular, which
 /// stays accurate when the axes nearly meet; `across` = axis A x axis B, of length sine.
@@ -75,6 +80,29 @@ bool sideBySide(const Segments<R>& s, R radiusA, R radiusB, const Vec3<R>& n, R 
     return false;
 }
 
+/// The ends of the common stretch of segments that cross, on the line of B's side, with the separations there along n, which
+/// stands on both axes. `y`: where the closest point is.
+template <class R>
+void addEnds(const Segments<R>& s, R radiusA, R radiusB, const Vec3<R>& n, R y, R speculative,
+             Manifold<Space<R, 3>>& out) {
+    const R low = std::max(-s.h, s.c.y() - std::abs(s.e.y()));
+    const R high = std::min(s.h, s.c.y() + std::abs(s.e.y()));
+    const R apart = R(0.1) * std::min(s.h, s.e.norm());
+    for (const R end : {low, high}) {
+        if (high - low < apart || std::abs(end - y) < apart) continue;
+        const R u = std::clamp((end - s.c.y()) / s.e.y(), R(-1), R(1));
+        const Vec3<R> way = s.onB(u) - s.onA(end);
+        const R height = n.dot(way), x = (way - height * n).norm();
+        if (!(x < R(0.9) * radiusA)) continue;
+        const R separation = height - radiusB - std::sqrt(radiusA * radiusA - x * x);
+        if (separation > speculative) continue;
+        const bool endOfA = std::abs(end) >= s.h;
+        const int vertex = endOfA ? (end < 0 ? 0 : 1) : (u < 0 ? 0 : 1);
+        const Vec3<R> onB = s.onB(u) - radiusB * n;
+        addPoint<Space<R, 3>>(out, onB - separation * n, onB, separation, vertexFeature(endOfA, vertex));
+    }
+}
+
 }  // namespace
 
 template <class R>
@@ -94,8 +122,12 @@ void collidePair(const Capsule<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, con
     const R sine = across.norm();
     out.normal = contactNormal<R>(s, y, t, across, sine, a.radius + b.radius);
     const V n = out.normal;
-    if (sine >= kSideBySide<R> || !sideBySide<R>(s, a.radius, b.radius, n, separation, speculative, out))
+    if (sine >= kSideBySide<R> || !sideBySide<R>(s, a.radius, b.radius, n, separation, speculative, out)) {
         addPoint<S>(out, p + a.radius * n, q - b.radius * n, separation, 0);
+        const R slope = std::max(std::abs(n.y()), std::abs(n.dot(s.e)) / b.halfLength);
+        if (sine < kNearlySideBySide<R> && slope < R(1e-3))
+            addEnds<R>(s, a.radius, b.radius, n, y, speculative, out);
+    }
     toWorldFrame<S>(out, Xa);
 }
 

@@ -3,6 +3,7 @@
 #include "engine/narrowphase/3d/feature.hpp"
 
 #include "engine/math/portable.hpp"
+#include "engine/narrowphase/3d/clip.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -25,6 +26,16 @@ void featureOf(const Capsule<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out
     if (lying || d.y() >= 0) out.add(out1 + end, 1);
 }
 
+template <class R>
+void addFace(const Polytope<R>& p, const HullFace<R>& f, SupportFeature<R>& out) {
+    const int n = std::min(f.count, SupportFeature<R>::kMost);
+    for (int k = 0; k < n; ++k) {
+        const int i = f.count <= n ? k : k * f.count / n;
+        out.add(p.loopVertex(f, i), p.loops[f.first + i]);
+    }
+    out.normal = f.normal;
+}
+
 /// The face that looks along d; else the edge at the extreme vertex that is most nearly perpendicular to d.
 template <class R>
 void polytopeFeature(const Polytope<R>& p, const Vec3<R>& d, SupportFeature<R>& out) {
@@ -33,12 +44,7 @@ void polytopeFeature(const Polytope<R>& p, const Vec3<R>& d, SupportFeature<R>& 
         if (p.faces[i].normal.dot(d) > p.faces[face].normal.dot(d)) face = i;
     const HullFace<R>& f = p.faces[face];
     if (f.normal.dot(d) > kFeatureFlat<R>) {
-        const int n = std::min(f.count, SupportFeature<R>::kMost);
-        for (int k = 0; k < n; ++k) {
-            const int i = f.count <= n ? k : k * f.count / n;
-            out.add(p.loopVertex(f, i), p.loops[f.first + i]);
-        }
-        out.normal = f.normal;
+        addFace(p, f, out);
         return;
     }
     for (int i = 1; i < p.vertexCount; ++i)
@@ -115,6 +121,39 @@ void featureOf(const Cylinder<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& ou
     if (lying || d.y() >= 0) out.add({k * d.x(), s.halfLength, k * d.z()}, 33);
 }
 
+/// The cap or the line of the side, whichever is more nearly perpendicular to d.
+template <class R>
+void facingOf(const Cylinder<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
+    const R across = portable::hypot(d.x(), d.z()), up = d.y() < 0 ? R(-1) : R(1);
+    if (std::abs(d.y()) >= across) {
+        addDisc<R>(s.radius, up * s.halfLength, up, d, up < 0 ? 0 : 16, out);
+        return;
+    }
+    const R k = s.radius / across;
+    out.add({k * d.x(), -s.halfLength, k * d.z()}, 32);
+    out.add({k * d.x(), s.halfLength, k * d.z()}, 33);
+    out.radius = s.radius;
+}
+template <class R>
+void facingOf(const Capsule<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
+    const Vec3<R> end(0, s.halfLength, 0), out1 = s.radius * d;
+    out.add(out1 - end, 0);
+    out.add(out1 + end, 1);
+    out.radius = s.radius;
+}
+template <class R>
+void facingOf(const Box<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
+    BoxStorage<R> store;
+    const Polytope<R> p = polytopeOf<R>(s, store);
+    addFace(p, p.faces[incidentFace<R>(p, d)], out);
+}
+template <class R>
+void facingOf(const Hull<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
+    BoxStorage<R> unused;
+    const Polytope<R> p = polytopeOf<R>(s, unused);
+    addFace(p, p.faces[incidentFace<R>(p, d)], out);
+}
+
 template <class R>
 void featureOf(const Ellipsoid<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     out.add(support<S3<R>>(Shape<S3<R>>(s), d), 0);
@@ -135,6 +174,36 @@ void featureOf(const Cone<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     if (rise < lying) out.add(rim, 32);
     if (rise > -lying) out.add(apex, 33);
 }
+
+/// The base, or the line from its rim to the apex.
+template <class R>
+void facingOf(const Cone<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
+    const R across = portable::hypot(d.x(), d.z());
+    const Vec3<R> apex(0, s.halfLength, 0);
+    const Vec3<R> rim = across > 0
+                            ? Vec3<R>(s.radius * d.x() / across, -s.halfLength, s.radius * d.z() / across)
+                            : Vec3<R>(s.radius, -s.halfLength, 0);
+    const R rise = (apex - rim).dot(d) / (apex - rim).norm();
+    if (d.y() < 0 && d.y() * d.y() >= R(1) - rise * rise) {
+        addDisc<R>(s.radius, -s.halfLength, R(-1), d, 0, out);
+        return;
+    }
+    out.add(rim, 32);
+    out.add(apex, 33);
+}
+template <class R>
+void facingOf(const Sphere<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
+    featureOf(s, d, out);
+}
+template <class R>
+void facingOf(const Ellipsoid<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
+    featureOf(s, d, out);
+}
+template <class R>
+void facingOf(const HalfSpace<S3<R>>&, const Vec3<R>&, SupportFeature<R>&) {}
+/// A triangle is a piece of a surface, whose neighbours decide what it holds.
+template <class R>
+void facingOf(const Triangle<S3<R>>&, const Vec3<R>&, SupportFeature<R>&) {}
 
 /// The feature is the face on the side of d, or a side or a corner where d lies in the triangle's plane.
 template <class R>
@@ -177,6 +246,19 @@ void supportingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, Suppor
         shape);
 }
 
+template <class R>
+void facingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, SupportFeature<R>& out) {
+    out.count = 0;
+    out.radius = 0;
+    std::visit(
+        [&]<class Kind>(const Kind& s) {
+            if constexpr (!kComposite<Kind>) facingOf<R>(s, d, out);
+        },
+        shape);
+}
+
+template void facingFeature<float>(const Shape<Space3f>&, const Vec3<float>&, SupportFeature<float>&);
+template void facingFeature<double>(const Shape<Space3d>&, const Vec3<double>&, SupportFeature<double>&);
 template void supportingFeature<float>(const Shape<Space3f>&, const Vec3<float>&, SupportFeature<float>&);
 template void supportingFeature<double>(const Shape<Space3d>&, const Vec3<double>&, SupportFeature<double>&);
 

@@ -18,6 +18,7 @@ struct SupportFeature {
     std::array<int, kMost> index;  ///< names of the vertices, unique in the shape
     int count = 0;
     Vec3<R> normal = Vec3<R>::Zero();  ///< outward unit normal of a face
+    R radius = 0;                      ///< radius of the round side that a segment lies on; 0: unknown [m]
 
     void add(const Vec3<R>& x, int name) {
         at[count] = x;
@@ -43,5 +44,10 @@ inline constexpr R kRimNoise = R(4e-6);
 /// `d` is unit, in the frame of the shape. Half-spaces and composites have no features: count = 0.
 template <class R>
 void supportingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, SupportFeature<R>& out);
+
+/// The face or segment through the extreme point along d whose normal is nearest to d, at any angle: what an overlap
+/// along d is bounded by. Points of spheres and ellipsoids; of triangles, half-spaces and composites count = 0.
+template <class R>
+void facingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, SupportFeature<R>& out);
 
 }  // namespace rigor::engine

@@ -10,7 +10,9 @@
 //      the face's normal is taken: exact, and the same from step to step;
 //   3. the supporting features of A and B along n are clipped against each other: face and face or segment
 //      (Sutherland-Hodgman against the prism over the reference face), two nearly parallel segments (their
-//      common stretch), else the closest points alone. Separations are measured along n.
+//      common stretch). Separations are measured along n. Where these have no points, the faces or segments that
+//      look along n most nearly are clipped, if one of them does within 26 degrees: an overlap is a region between
+//      two sides, which one point would let turn and sink further in. Else the closest points alone;
 //   4. the deepest point is kept: if clipping lost it the closest points are added.
 // Sources: [Bergen2003], [Ericson2005, ch. 5.3, 8.3].
 //
@@ -18,7 +20,8 @@
 // point is good to kRimNoise);
 // overlapping curved sides have a normal as good as EPA's. Cost: that of closestPoints and O(n m) of the
 // features.
-#include "engine/narrowphase/3d/feature.hpp"
+#include "engine/narrowphase/3d/clip.hpp"
+#include "engine/narrowphase/3d/feature_segments.hpp"
 #include "engine/narrowphase/distance.hpp"
 #include "engine/narrowphase/minkowski.hpp"
 #include "engine/narrowphase/pairs.hpp"
@@ -49,15 +52,21 @@ R separationAlong(const FeaturePair<R>& m, const Vec3<R>& n) {
     return n.dot(m.X.p) + n.dot(rotate(m.X.q, onB)) - n.dot(support<S3<R>>(m.a, n));
 }
 
-template <class R>
-void featuresAlong(const FeaturePair<R>& m, SupportFeature<R>& fa, SupportFeature<R>& fb) {
-    supportingFeature<R>(m.a, m.normal, fa);
-    supportingFeature<R>(m.b, rotateInverse<R>(m.X.q, Vec3<R>(-m.normal)), fb);
+/// `find`: supportingFeature or facingFeature.
+template <class R, class Find>
+void featuresAlong(const FeaturePair<R>& m, const Find& find, SupportFeature<R>& fa, SupportFeature<R>& fb) {
+    find(m.a, m.normal, fa);
+    find(m.b, rotateInverse<R>(m.X.q, Vec3<R>(-m.normal)), fb);
     for (int i = 0; i < fb.count; ++i) {
         Vec3<R>& x = fb.at[i];
         x = toWorld<S3<R>>(m.X, x);
     }
     fb.normal = rotate(m.X.q, fb.normal);
+}
+
+template <class R>
+void featuresAlong(const FeaturePair<R>& m, SupportFeature<R>& fa, SupportFeature<R>& fb) {
+    featuresAlong(m, &supportingFeature<R>, fa, fb);
 }
 
 /// Step 2. True when the normal changed.
@@ -218,30 +227,25 @@ void clipFeatures(const FeaturePair<R>& m, const SupportFeature<R>& ref, const S
         });
 }
 
-/// Sine of the largest angle between segments that lie side by side: about 3 degrees.
+/// Step 3 for features at larger angles. `fa`, `fb` are replaced where there are points.
 template <class R>
-inline constexpr R kParallelEdges = R(0.05);
-
-/// The ends of the common stretch of two segments; nothing where they cross.
-template <class R>
-void alongSegments(const FeaturePair<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
-                   Manifold<S3<R>>& out) {
-    const Vec3<R> d = fa.at[1] - fa.at[0], e = fb.at[1] - fb.at[0];
-    const R dd = d.squaredNorm(), de = d.dot(e);
-    if (!(d.cross(e).squaredNorm() <= kParallelEdges<R> * kParallelEdges<R> * dd * e.squaredNorm())) return;
-    const R t0 = d.dot(fb.at[0] - fa.at[0]) / dd, slope = de / dd, t1 = t0 + slope;
-    const R low = std::max(R(0), std::min(t0, t1)), high = std::min(R(1), std::max(t0, t1));
-    if (!(high - low > R(1e-3) * std::min(R(1), std::abs(slope)))) return;
-    for (const R t : {low, high}) {
-        const R u = std::clamp((t - t0) / slope, R(0), R(1));
-        const Vec3<R> p = fa.at[0] + t * d, q = fb.at[0] + u * e;
-        const R s = m.normal.dot(q - p);
-        if (s > m.speculative) continue;
-        const bool endOfA = t == R(0) || t == R(1);
-        const auto end = static_cast<std::size_t>((endOfA ? t : u) > R(0.5) ? 1 : 0);
-        addPoint<S3<R>>(out, p, p + s * m.normal, s,
-                        vertexFeature(endOfA, endOfA ? fa.index[end] : fb.index[end]));
-    }
+void clipFacing(const FeaturePair<R>& m, SupportFeature<R>& fa, SupportFeature<R>& fb, Manifold<S3<R>>& out) {
+    SupportFeature<R> a, b;
+    featuresAlong(m, &facingFeature<R>, a, b);
+    if (a.count < 2 || b.count < 2) return;
+    const R flatA = flatness(a, m.normal), flatB = flatness(b, m.normal);
+    const bool isRefA = a.count > 2 && flatA >= kFlatFaces<R>, isRefB = b.count > 2 && flatB >= kFlatFaces<R>;
+    if (isRefA && (!isRefB || flatA >= flatB))
+        clipFeatures(m, a, b, true, out);
+    else if (isRefB)
+        clipFeatures(m, b, a, false, out);
+    else if (isRound(a, m.normal) && b.count == 2 && flatB >= kFlatFaces<R>)
+        alongSegments(m.normal, m.speculative, a, b, true, true, out);
+    else if (isRound(b, m.normal) && a.count == 2 && flatA >= kFlatFaces<R>)
+        alongSegments(m.normal, m.speculative, b, a, false, true, out);
+    if (out.count == 0) return;
+    fa = a;
+    fb = b;
 }
 
 /// Step 1b: the penetration vector of the last step, if it is as short. `last` in the frame of A.
@@ -332,7 +336,8 @@ void collideFeatures(const Shape<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, c
     else if (fb.count > 2 && fa.count >= 2)
         clipFeatures(m, fb, fa, false, out);
     else if (fa.count == 2 && fb.count == 2)
-        alongSegments(m, fa, fb, out);
+        alongSegments(m.normal, m.speculative, fa, fb, true, false, out);
+    if (out.count == 0) clipFacing(m, fa, fb, out);
     keepDeepest(m, fa, fb, out);
     toWorldFrame<S>(out, Xa);
 }

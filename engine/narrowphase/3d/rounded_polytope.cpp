@@ -266,7 +266,7 @@ void collideCore(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R 
             if (hull.faces[i].normal.dot(n) > hull.faces[face].normal.dot(n)) face = i;
         const HullFace<R>& f = hull.faces[face];
         R low = 0, high = 0;
-        if (f.normal.dot(n) > kFlat<R> && clipToFace(hull, f, n, p, d, low, high)) {
+        if (f.normal.dot(n) >= kFlatFaces<R> && clipToFace(hull, f, n, p, d, low, high)) {
             const auto height = [&](R s) {
                 return R((f.normal.dot(p + s * d) - f.offset) / f.normal.dot(n));
             };

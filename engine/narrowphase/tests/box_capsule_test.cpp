@@ -114,9 +114,9 @@ TYPED_TEST(BoxCapsule, ClosestFeatureOfTheBox) {
 TYPED_TEST(BoxCapsule, CrossingEdgesFixTheNormal) {
     using S = TypeParam;
     const auto off = static_cast<typename S::Real>(tol<S>(1e-12, 1e-5));
-    const typename S::Vec n = vec<S>(std::cos(0.3), std::sin(0.3)), edge = vec<S>(0.5, 0.3, 0.1);
+    const typename S::Vec n = vec<S>(std::cos(0.6), std::sin(0.6)), edge = vec<S>(0.5, 0.3, 0.1);
     const auto m = collide<S>(this->box, pose<S>(vec<S>(0, 0, 0)), this->capsule(0.2, 1),
-                              pose<S>(edge + off * n, turn<S>(0.3)));
+                              pose<S>(edge + off * n, turn<S>(0.6)));
     ASSERT_EQ(m.count, 1);
     EXPECT_LE((m.normal - n).norm(), tol<S>(1e-14, 1e-6));
 }
