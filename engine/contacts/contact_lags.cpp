@@ -52,10 +52,11 @@ void addLag(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Conta
 }
 
 template <class S>
-void findLandings(const ContactList<S>& contacts, std::span<const RowLags<S>> lags,
-                  std::vector<LandingPoint<typename S::Real>>& landings) {
+void findLandings(const ContactList<S>& contacts, std::span<const std::uint32_t> own,
+                  std::span<const RowLags<S>> lags, std::vector<LandingPoint<typename S::Real>>& landings) {
     landings.clear();
-    for (std::size_t k = 0; k < lags.size(); ++k)
+    if (lags.empty()) return;
+    for (const std::uint32_t k : own)
         for (std::size_t i = 0; i < lags[k].size(); ++i)
             if (lags[k][i].landing > 0) landings.push_back({contacts[k].block[i], lags[k][i].landing});
 }
@@ -64,8 +65,8 @@ void findLandings(const ContactList<S>& contacts, std::span<const RowLags<S>> la
     template void placeWithLags<S>(const BodyArrays<S>&, Contact<S>&, RowLags<S>&);                      \
     template void addLag<S>(const BodyArrays<S>&, const ContactStep<S>&, const Contact<S>&, std::size_t, \
                             RowLag<S>&, const Block<S>&, Row<S>*);                                       \
-    template void findLandings<S>(const ContactList<S>&, std::span<const RowLags<S>>,                    \
-                                  std::vector<LandingPoint<S::Real>>&);
+    template void findLandings<S>(const ContactList<S>&, std::span<const std::uint32_t>,                 \
+                                  std::span<const RowLags<S>>, std::vector<LandingPoint<S::Real>>&);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 

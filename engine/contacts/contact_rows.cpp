@@ -230,18 +230,27 @@ void RowContacts<S>::prepare(ContactList<S>&, const BodyArrays<S>&, const Contac
     islands_ = step.islands;
 }
 
+template <class S>
+void RowContacts<S>::findOwn(const ContactList<S>& contacts) {
+    own_.clear();
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+        if (contacts[k].islands == islands_) own_.push_back(static_cast<std::uint32_t>(k));
+}
+
 /// Three passes, so that threads can share the work: which points get rows, where the rows go, the rows.
 template <class S>
 void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodies, const ContactStep<S>& step,
                                   ConstraintRows<S>& rows, const Tasks& tasks) {
-    lags_.assign(step.rowsLag ? contacts.size() : 0, {});
-    tasks.forEach(contacts.size(), kRowGrain, [&](std::size_t k) {
-        if (contacts[k].islands == islands_)
-            prepareRows<S>(bodies, step, stepBegins_, contacts[k], lags_.empty() ? nullptr : &lags_[k]);
+    findOwn(contacts);
+    lags_.resize(step.rowsLag ? contacts.size() : 0);
+    tasks.forEach(own_.size(), kRowGrain, [&](std::size_t i) {
+        const std::uint32_t k = own_[i];
+        if (step.rowsLag) lags_[k] = {};
+        prepareRows<S>(bodies, step, stepBegins_, contacts[k], step.rowsLag ? &lags_[k] : nullptr);
     });
     std::size_t firstRow = rows.rows.size(), firstBlock = rows.blocks.size(), points = 0;
-    for (Contact<S>& contact : contacts) {
-        if (contact.islands != islands_) continue;
+    for (const std::uint32_t k : own_) {
+        Contact<S>& contact = contacts[k];
         contact.firstRow = static_cast<std::uint32_t>(firstRow);
         for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i)
             if (contact.block[i] != kNullIndex) {
@@ -255,9 +264,9 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
     stepBegins_ = false;
     rows.rows.resize(firstRow);
     rows.blocks.resize(firstBlock);
-    tasks.forEach(contacts.size(), kRowGrain, [&](std::size_t k) {
+    tasks.forEach(own_.size(), kRowGrain, [&](std::size_t at) {
+        const std::uint32_t k = own_[at];
         const Contact<S>& contact = contacts[k];
-        if (contact.islands != islands_) return;
         std::uint32_t row = contact.firstRow;
         for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i) {
             if (contact.block[i] == kNullIndex) continue;
@@ -272,7 +281,7 @@ void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodie
         }
     });
     findSlips(contacts, bodies, step, rows);
-    findLandings<S>(contacts, lags_, landings_);
+    findLandings<S>(contacts, own_, lags_, landings_);
 }
 
 template <class S>
@@ -285,9 +294,9 @@ template <class S>
 bool RowContacts<S>::applySpeculativeRestitution(const ContactList<S>& contacts,
                                                  ConstraintRows<S>& rows) const {
     bool any = false;
-    for (const Contact<S>& contact : contacts)
-        for (int i = 0; contact.islands == islands_ && contact.speculative && i < contact.manifold.count;
-             ++i) {
+    for (const std::uint32_t own : own_) {
+        const Contact<S>& contact = contacts[own];
+        for (int i = 0; contact.speculative && i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (contact.points[k].rebound == 0 || contact.block[k] == kNullIndex) continue;
             Row<S>& normal = rows.rows[rows.blocks[contact.block[k]].first];
@@ -295,14 +304,15 @@ bool RowContacts<S>::applySpeculativeRestitution(const ContactList<S>& contacts,
             normal.relaxedBias = contact.points[k].rebound;
             any = true;
         }
+    }
     return any;
 }
 
 template <class S>
 void RowContacts<S>::advance(ContactList<S>& contacts, std::span<const Velocity<S>> velocities, Real h,
-                             const Tasks&) {
-    for (Contact<S>& contact : contacts) {
-        if (contact.islands != islands_) continue;
+                             const Tasks& tasks) {
+    tasks.forEach(own_.size(), kRowGrain, [&](std::size_t at) {
+        Contact<S>& contact = contacts[own_[at]];
         const Velocity<S>&A = velocities[contact.bodyA], &B = velocities[contact.bodyB];
         const typename S::Vec dA = h * A.v, dB = h * B.v;
         const typename S::Ang aA = h * A.w, aB = h * B.w;
@@ -311,15 +321,17 @@ void RowContacts<S>::advance(ContactList<S>& contacts, std::span<const Velocity<
             const typename S::Vec moved = dB + cross(aB, point.rB) - dA - cross(aA, point.rA);
             point.separation += contact.manifold.normal.dot(moved);
         }
-    }
+    });
 }
 
 template <class S>
-void RowContacts<S>::store(ContactList<S>& contacts, const ConstraintRows<S>& rows, bool, const Tasks&) {
-    for (Contact<S>& contact : contacts) {
-        const bool moments = contact.islands == islands_ && contact.coefficients.hasMoments();
+void RowContacts<S>::store(ContactList<S>& contacts, const ConstraintRows<S>& rows, bool,
+                           const Tasks& tasks) {
+    tasks.forEach(own_.size(), kRowGrain, [&](std::size_t at) {
+        Contact<S>& contact = contacts[own_[at]];
+        const bool moments = contact.coefficients.hasMoments();
         if (moments) contact.moment = zeroAng<S>();
-        for (int i = 0; contact.islands == islands_ && i < contact.manifold.count; ++i) {
+        for (int i = 0; i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (contact.block[k] == kNullIndex) continue;
             const Block<S>& block = rows.blocks[contact.block[k]];
@@ -338,7 +350,7 @@ void RowContacts<S>::store(ContactList<S>& contacts, const ConstraintRows<S>& ro
             }
         }
         if (moments) contact.momentTotal += contact.moment;
-    }
+    });
 }
 
 #define RIGOR_INSTANTIATE(S) template std::array<S::Vec, S::tangents> tangentBasis<S>(const S::Vec&);

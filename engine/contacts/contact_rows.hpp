@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -45,6 +46,8 @@ class RowContacts final : public ContactModel<S> {
     ContactCounts counts() const override { return counts_; }
 
   private:
+    /// Indices of the contacts whose islands this model makes rows of.
+    void findOwn(const ContactList<S>& contacts);
     void findSlips(const ContactList<S>& contacts, const BodyArrays<S>& bodies, const ContactStep<S>& step,
                    const ConstraintRows<S>& rows);
 
@@ -58,8 +61,9 @@ class RowContacts final : public ContactModel<S> {
     };
     void updateSlip(const Slip& slip, std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) const;
 
-    std::vector<RowLags<S>>
-        lags_;  ///< one for each contact, empty in steps whose rows are not those of a midpoint
+    std::vector<std::uint32_t> own_;  ///< indices of contacts, in the order of the list, in this sub-step
+    /// One for each contact, up to date for those of own_ alone; empty in steps whose rows are not those of a midpoint.
+    std::vector<RowLags<S>> lags_;
     std::vector<LandingPoint<Real>> landings_;
     std::vector<Slip> slips_;            ///< points where friction opposes the mean slip
     std::vector<std::uint32_t> slipOf_;  ///< slip of each block, kNullIndex: none
@@ -79,10 +83,10 @@ template <class S>
 void addLag(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
             std::size_t index, RowLag<S>& lag, const Block<S>& block, Row<S>* rows);
 
-/// The points that land within the step, of contacts with the lags of the same index.
+/// The points that land within the step, of those contacts that `own` has the indices of; lags have the index of the contact.
 template <class S>
-void findLandings(const ContactList<S>& contacts, std::span<const RowLags<S>> lags,
-                  std::vector<LandingPoint<typename S::Real>>& landings);
+void findLandings(const ContactList<S>& contacts, std::span<const std::uint32_t> own,
+                  std::span<const RowLags<S>> lags, std::vector<LandingPoint<typename S::Real>>& landings);
 
 /// Unit tangents that with n form a right-handed orthonormal frame; a function of n alone.
 template <class S>

@@ -34,10 +34,9 @@ void RowContacts<S>::findSlips(const ContactList<S>& contacts, const BodyArrays<
     slipOf_.clear();
     if (S::dim == 2 || !step.meanSlip) return;
     const Real slowest = Real(0.05) * step.restingGap / step.h;
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
+    for (const std::uint32_t k : own_) {
         const Contact<S>& contact = contacts[k];
-        for (std::size_t i = 0; contact.blocks > 0 && contact.islands == islands_ && i < contact.block.size();
-             ++i) {
+        for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i) {
             if (contact.block[i] == kNullIndex) continue;
             const Block<S>& block = rows.blocks[contact.block[i]];
             if (block.rows < 2) continue;

@@ -113,6 +113,9 @@ void Step<S>::changeHalves(std::span<const IslandSize> before) {
         measureLead(i);
     }
     if (!any) return;
+    const auto isStill = [](const Velocity<S>& motion) {
+        return motion.v.isZero(0) && dotAng(motion.w, motion.w) == Real(0);
+    };
     for (Contact<S>& contact : contacts_.list()) {
         const auto motionOf = [&](std::uint32_t i) {
             const bool stays =
@@ -120,6 +123,7 @@ void Step<S>::changeHalves(std::span<const IslandSize> before) {
             return stays ? Velocity<S>{} : moved[i];
         };
         const Velocity<S> a = motionOf(contact.bodyA), b = motionOf(contact.bodyB);
+        if (isStill(a) && isStill(b)) continue;
         const auto at = [&](std::uint32_t i, const Velocity<S>& motion) {
             const bool kinematic = bodies_.constants[i].type == BodyType::Kinematic;
             return typename S::Vec(kinematic ? bodies_.pose[i].p : bodies_.pose[i].p - motion.v);

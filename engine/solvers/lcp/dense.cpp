@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/solvers/lcp/lu_kernels.hpp"
+
 namespace rigor::engine {
 
 double* DenseLu::reset(std::size_t n) {
@@ -44,15 +46,7 @@ bool DenseLu::factor() {
             row(k)[k] = 0;
             continue;
         }
-        for (std::size_t i = k + 1; i < n_; ++i) {
-            const double factor = row(i)[k] / pivot;
-            row(i)[k] = factor;
-            if (factor == 0) continue;
-            double* to = row(i);
-            const double* from = row(k);
-            for (std::size_t j = k + 1; j < end_[k]; ++j) to[j] -= factor * from[j];
-            end_[i] = std::max(end_[i], end_[k]);
-        }
+        eliminateColumn({a_.data(), n_, end_.data()}, k);
     }
     return regular;
 }
