@@ -154,19 +154,12 @@ TEST(DartJoints, TwoSwingsAreSuccessiveTurnsUnlessAllTurnsAreFree) {
 
 /// Travels, one, two or three successive turns, and all turns free.
 TEST(DartJoints, StatesThatTheJointAllowsAreSetAndReadBack) {
-    const std::vector<std::vector<std::size_t>> cases{{0, 1, 2}, {0, 3},       {1, 4, 3},         {2, 5, 3},
-                                                      {4, 5},    {0, 3, 4, 5}, {0, 1, 2, 3, 4, 5}};
-    for (const bool reversed : {false, true}) {
-        SCOPED_TRACE(reversed ? "reversed" : "");
-        for (const auto& open : cases) {
-            SCOPED_TRACE(std::to_string(open.size()) + " open");
-            Arm arm = Arm(JointType::SixDof, reversed).open(open);
-            // A spring on the twist keeps all turns from being one ball.
-            if (open.size() == 4) arm.joint().axes[3].stiffness = 1.0;
-            expectStateReadBack(arm);
-        }
-        expectStateReadBack(Arm(JointType::Wheel, reversed).open({0, 1}));
-    }
+    // A spring on the twist keeps all turns from being one ball.
+    const auto spring = [](Arm& arm, std::size_t open) {
+        if (open == 4) arm.joint().axes[3].stiffness = 1.0;
+    };
+    expectStatesReadBack({{0, 1, 2}, {0, 3}, {1, 4, 3}, {2, 5, 3}, {4, 5}, {0, 3, 4, 5}, {0, 1, 2, 3, 4, 5}},
+                         spring);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "adapters/interface/state_setting.hpp"
 #include "adapters/interface/tests/scenes.hpp"
@@ -69,6 +71,25 @@ inline void expectStateReadBack(const Arm& arm) {
     EXPECT_LT(norm(have.angularVelocity - want.angularVelocity), 1e-9);
     const Quat left = conjugate(want.orientation) * have.orientation;
     EXPECT_LT(1.0 - std::abs(left.w), 1e-12);
+}
+
+/// The same for a six_dof with each of these sets of free axes, which `prepare` may change further, and for a wheel whose pin is
+/// no axis of its strut; with either body moving.
+template <class Prepare>
+void expectStatesReadBack(const std::vector<std::vector<std::size_t>>& cases, const Prepare& prepare) {
+    for (const bool reversed : {false, true}) {
+        SCOPED_TRACE(reversed ? "reversed" : "");
+        for (const auto& open : cases) {
+            SCOPED_TRACE(std::to_string(open.size()) + " open");
+            Arm arm = Arm(JointType::SixDof, reversed).open(open);
+            prepare(arm, open.size());
+            expectStateReadBack(arm);
+        }
+        expectStateReadBack(Arm(JointType::Wheel, reversed).open({0, 1}));
+    }
+}
+inline void expectStatesReadBack(const std::vector<std::vector<std::size_t>>& cases) {
+    expectStatesReadBack(cases, [](Arm&, std::size_t) {});
 }
 
 }  // namespace rigor::test

@@ -187,15 +187,7 @@ TEST(MujocoJoints, StatesOfATreeCanBeSet) {
 
 /// Travels with one turn and with all of them free, and a wheel whose pin is no axis of its strut.
 TEST(MujocoJoints, StatesThatTheJointAllowsAreSetAndReadBack) {
-    const std::vector<std::vector<std::size_t>> cases{{0, 1, 2}, {0, 4}, {0, 1, 2, 5}, {0, 1, 2, 3, 4, 5}};
-    for (const bool reversed : {false, true}) {
-        SCOPED_TRACE(reversed ? "reversed" : "");
-        for (const auto& open : cases) {
-            SCOPED_TRACE(std::to_string(open.size()) + " open");
-            expectStateReadBack(Arm(JointType::SixDof, reversed).open(open));
-        }
-        expectStateReadBack(Arm(JointType::Wheel, reversed).open({0, 1}));
-    }
+    expectStatesReadBack({{0, 1, 2}, {0, 4}, {0, 1, 2, 5}, {0, 1, 2, 3, 4, 5}});
 }
 
 }  // namespace
