@@ -6,6 +6,9 @@
 // capsules overlap deeply they do so along the stretch, and would turn about one point and sink further in. Crossing
 // segments are pushed apart along the common perpendicular: the Minkowski difference of two segments is flat, so the
 // cores' penetration is zero.
+#include <utility>
+
+#include "engine/narrowphase/3d/feature_segments.hpp"
 #include "engine/narrowphase/detail.hpp"
 #include "engine/narrowphase/pairs.hpp"
 
@@ -35,13 +38,6 @@ void closestPair(const Segments<R>& s, R& y, R& t) {
     y = std::clamp(s.onB(t).y(), -s.h, s.h);
 }
 
-/// Sine of the angle between axes up to which two capsules lie side by side: about 3 degrees.
-template <class R>
-inline constexpr R kSideBySide = R(0.05);
-/// The same up to which the ends of their common stretch are points beside the closest one: 26 degrees.
-template <class R>
-inline constexpr R kNearlySideBySide = R(0.436);
-
 /// The contact normal. If the closest points are inside both segments it is the common perpendicular, which
 /// stays accurate when the axes nearly meet; `across` = axis A x axis B, of length sine.
 template <class R>
@@ -54,26 +50,42 @@ Vec3<R> contactNormal(const Segments<R>& s, R y, R t, const Vec3<R>& across, R s
     return sine > kRounding<R> ? Vec3<R>(across / sine) : Vec3<R>(Vec3<R>::UnitX());
 }
 
+/// The stretch along A's axis that both segments reach over.
+template <class R>
+std::pair<R, R> commonStretch(const Segments<R>& s) {
+    return {std::max(-s.h, s.c.y() - std::abs(s.e.y())), std::min(s.h, s.c.y() + std::abs(s.e.y()))};
+}
+
+/// Parameter of the point of B beside an end of the stretch.
+template <class R>
+R besideOnB(const Segments<R>& s, R end) {
+    return std::clamp((end - s.c.y()) / s.e.y(), R(-1), R(1));
+}
+
+/// Name of a point by the end and the segment that bound the stretch.
+template <class R>
+int endFeature(const Segments<R>& s, R end, R u) {
+    const bool endOfA = std::abs(end) >= s.h;
+    return vertexFeature(endOfA, endOfA ? (end < 0 ? 0 : 1) : (u < 0 ? 0 : 1));
+}
+
 /// The two ends of the common stretch of nearly parallel segments, along the axis of A, with separations
 /// along n. False if there is no interval for two points, or the closest point is inside it (skew segments).
 template <class R>
 bool sideBySide(const Segments<R>& s, R radiusA, R radiusB, const Vec3<R>& n, R closest, R speculative,
                 Manifold<Space<R, 3>>& out) {
-    const R low = std::max(-s.h, s.c.y() - std::abs(s.e.y()));
-    const R high = std::min(s.h, s.c.y() + std::abs(s.e.y()));
-    if (high - low <= R(1e-3) * std::min(s.h, s.e.norm()) || std::abs(n.y()) >= kSideBySide<R>) return false;
+    const auto [low, high] = commonStretch(s);
+    if (high - low <= R(1e-3) * std::min(s.h, s.e.norm()) || std::abs(n.y()) >= kParallelEdges<R>)
+        return false;
     R least = std::numeric_limits<R>::max();
     for (const R end : {low, high}) {
-        const R u = std::clamp((end - s.c.y()) / s.e.y(), R(-1), R(1));
+        const R u = besideOnB(s, end);
         const Vec3<R> p = s.onA(end);
         const R separation = n.dot(s.onB(u) - p) - radiusA - radiusB;
         least = std::min(least, separation);
         if (separation > speculative) continue;
-        // The point is named by the end and the segment that bound the interval.
-        const bool endOfA = std::abs(end) >= s.h;
-        const int vertex = endOfA ? (end < 0 ? 0 : 1) : (u < 0 ? 0 : 1);
         addPoint<Space<R, 3>>(out, p + radiusA * n, p + (radiusA + separation) * n, separation,
-                              vertexFeature(endOfA, vertex));
+                              endFeature(s, end, u));
     }
     if (least <= closest + kRounding<R> * (radiusA + radiusB)) return true;
     out.count = 0;
@@ -85,21 +97,18 @@ bool sideBySide(const Segments<R>& s, R radiusA, R radiusB, const Vec3<R>& n, R 
 template <class R>
 void addEnds(const Segments<R>& s, R radiusA, R radiusB, const Vec3<R>& n, R y, R speculative,
              Manifold<Space<R, 3>>& out) {
-    const R low = std::max(-s.h, s.c.y() - std::abs(s.e.y()));
-    const R high = std::min(s.h, s.c.y() + std::abs(s.e.y()));
+    const auto [low, high] = commonStretch(s);
     const R apart = R(0.1) * std::min(s.h, s.e.norm());
     for (const R end : {low, high}) {
         if (high - low < apart || std::abs(end - y) < apart) continue;
-        const R u = std::clamp((end - s.c.y()) / s.e.y(), R(-1), R(1));
+        const R u = besideOnB(s, end);
         const Vec3<R> way = s.onB(u) - s.onA(end);
         const R height = n.dot(way), x = (way - height * n).norm();
         if (!(x < R(0.9) * radiusA)) continue;
         const R separation = height - radiusB - std::sqrt(radiusA * radiusA - x * x);
         if (separation > speculative) continue;
-        const bool endOfA = std::abs(end) >= s.h;
-        const int vertex = endOfA ? (end < 0 ? 0 : 1) : (u < 0 ? 0 : 1);
         const Vec3<R> onB = s.onB(u) - radiusB * n;
-        addPoint<Space<R, 3>>(out, onB - separation * n, onB, separation, vertexFeature(endOfA, vertex));
+        addPoint<Space<R, 3>>(out, onB - separation * n, onB, separation, endFeature(s, end, u));
     }
 }
 
@@ -122,10 +131,10 @@ void collidePair(const Capsule<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, con
     const R sine = across.norm();
     out.normal = contactNormal<R>(s, y, t, across, sine, a.radius + b.radius);
     const V n = out.normal;
-    if (sine >= kSideBySide<R> || !sideBySide<R>(s, a.radius, b.radius, n, separation, speculative, out)) {
+    if (sine >= kParallelEdges<R> || !sideBySide<R>(s, a.radius, b.radius, n, separation, speculative, out)) {
         addPoint<S>(out, p + a.radius * n, q - b.radius * n, separation, 0);
         const R slope = std::max(std::abs(n.y()), std::abs(n.dot(s.e)) / b.halfLength);
-        if (sine < kNearlySideBySide<R> && slope < R(1e-3))
+        if (sine < kParallelSides<R> && slope < kSquare<R>)
             addEnds<R>(s, a.radius, b.radius, n, y, speculative, out);
     }
     toWorldFrame<S>(out, Xa);

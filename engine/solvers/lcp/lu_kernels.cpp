@@ -35,8 +35,7 @@ void eliminateBelow(const LuRows& rows, std::size_t k) {
         if (row[k] == 0) continue;
         const double factor = row[k] / pivot;
         row[k] = factor;
-        if (factor == 0) continue;
-        if (end > k + 1) subtractMultiple(factor, pivotRow + k + 1, row + k + 1, end - (k + 1));
+        subtractMultiple(factor, pivotRow + k + 1, row + k + 1, end - (k + 1));
         rows.end[i] = std::max(rows.end[i], end);
     }
 }
