@@ -7,7 +7,10 @@ const J = await init();
 export const bound = 1e-6; // single precision
 export const scenes = {
     default: ['sleeping_top', 'hanging_chain_mode', 'euler_disc', 'backspin', 'bouncing_ball', 'asymmetric_top', 'ball_in_cylinder'],
-    matched: ['rod_strikes_ball_with_its_end', 'four_bar_linkage_2d', 'physical_pendulum_2d', 'rod_strikes_ball'],
+    matched: [
+        ...['mass_ratio_heavy_above', 'four_bar_linkage_2d', 'physical_pendulum_2d'],
+        ...['rod_strikes_ball', 'rod_strikes_ball_with_its_end'],
+    ],
 };
 
 const kHalfDepth = 0.5; // of what is flat [m]

@@ -12,7 +12,10 @@ export const bound = 1e-6;
 export const bounds = { rotating_hoop: 1e-5 };
 export const scenes = {
     default: ['hanging_chain_mode', 'ball_in_cylinder', 'backspin', 'bouncing_ball', 'box_stack', 'rod_strikes_ball'],
-    matched: ['ball_in_trough', 'tipping_slope', 'rotating_hoop', 'hanging_chain_mode', 'rod_strikes_ball', 'rod_strikes_ball_with_its_end'],
+    matched: [
+        ...['ball_in_trough', 'mass_ratio_heavy_above', 'tipping_slope', 'rotating_hoop', 'hanging_chain_mode'],
+        ...['rod_strikes_ball', 'rod_strikes_ball_with_its_end'],
+    ],
 };
 
 const vector = ([x, y, z]) => ({ x, y, z });
