@@ -5,6 +5,7 @@
 #pragma once
 
 #include <dart/constraint/ConstraintBase.hpp>
+#include <dart/constraint/SmartPointer.hpp>
 #include <dart/dynamics/BodyNode.hpp>
 #include <span>
 #include <vector>
