@@ -40,7 +40,7 @@ TEST(Choices, TheWholeMenuIsListed) {
          {"single_pass", "jacobi", "pgs", "pgs_soft", "tgs_soft", "xpbd", "block", "dantzig", "lemke",
           "nsgs"}},
         {"warm_starting", {"on", "off"}},
-        {"position_correction", {"none", "baumgarte", "split_impulse", "ngs", "soft"}},
+        {"position_correction", {"none", "baumgarte", "split_impulse", "ngs", "rattle", "soft"}},
         {"friction", {"pyramid", "pyramid_2", "cone"}},
         {"friction_combine", {"geometric_mean", "average", "min", "max", "multiply"}},
         {"restitution", {"newton", "poisson", "none"}},

@@ -140,7 +140,11 @@ class Step {
                      const typename S::Vec& pB, const Velocity<S>& b) const;
     void toEnd();
     void releaseBroken();
-    void putJointsRight();
+    void leaveMidpointsOfJoints();
+    StepPositions<S> jointPositions();
+    bool hasRenewed() const;
+    bool beginDrift(bool there);
+    void endDrift(bool drifts, bool there);
     // step_shown.cpp
     void showContacts();
     Velocity<S> motionToEnd(const Contact<S>& contact, std::uint32_t body) const;

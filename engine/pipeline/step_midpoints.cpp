@@ -53,10 +53,12 @@ void Step<S>::toMidpoints() {
     state_.leads.resize(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i) state_.leads[i].start = bodies_.pose[i];
     const bool same = world_.clock.lastSubstepSize == h;
+    leaveMidpointsOfJoints();
     findRenewed(same);
+    const bool drifts = !joints_.records().empty() && hasRenewed() && beginDrift(true);
     if (moveToMidpoints(same)) {
         contacts_.keepSides(bodies_, tasks_);
-        putJointsRight();
+        endDrift(drifts, true);
     }
     tasks_.forEach(bodies_.size(), kBodyGrain, [this](std::size_t i) { measureLead(i); });
 }
@@ -168,11 +170,12 @@ void Step<S>::toEnd() {
         }
         way = state_.way;
     }
+    const bool drifts = !joints_.records().empty() && state_.broken.empty() && beginDrift(false);
     motion_.toEnd(bodies_, IslandSize::Usual, way, halfOf(IslandSize::Usual), tasks_);
     if (state_.anyLarge)
         algorithms_.large->motion.toEnd(bodies_, IslandSize::Large, algorithms_.large->motion.used(),
                                         halfOf(IslandSize::Large), tasks_);
-    putJointsRight();
+    endDrift(drifts, false);
     contacts_.keepSidesOfMidpoints(bodies_, tasks_);
     showContacts();
     if (algorithms_.locatesImpacts) endFlights();
@@ -206,17 +209,66 @@ void Step<S>::releaseBroken() {
     }
 }
 
-/// Position correction of joints alone, where the bodies are. Errors are of the order h^2: two iterations of
-/// Newton's method leave h^8. Motors that reach their speed keep the coordinates that it has led to.
+/// Bodies that joints connect begin at midpoints together: one of them alone would not be where its joints hold it.
 template <class S>
-void Step<S>::putJointsRight() {
-    if (joints_.records().empty() || method_.style.ownsCorrection) return;
+void Step<S>::leaveMidpointsOfJoints() {
+    if (!algorithms_.correction->drifts()) return;
+    const std::vector<std::uint8_t>& valid = bodies_.midpoints.valid;
+    const auto& records = joints_.records();
+    const auto leaves = [&](std::uint32_t i) {
+        return bodies_.invMass[i] > 0 && !(i < valid.size() && valid[i]);
+    };
+    bool changed = false;
+    const auto spread = [&](const auto& record) {
+        const std::uint32_t a = record.joint.a, b = record.joint.b;
+        if (bodies_.invMass[a] == 0 || bodies_.invMass[b] == 0 || leaves(a) == leaves(b)) return;
+        bodies_.leaveMidpoint(leaves(a) ? b : a);
+        changed = true;
+    };
+    do {
+        changed = false;
+        std::for_each(records.begin(), records.end(), spread);
+        std::for_each(records.rbegin(), records.rend(), spread);
+    } while (changed);
+}
+
+/// Joints alone, where the bodies are. Motors that reach their speed keep the coordinates that it has led to.
+template <class S>
+StepPositions<S> Step<S>::jointPositions() {
     state_.still.assign(bodies_.size(), Velocity<S>{});
     StepPositions<S> positions(bodies_, joints_, state_.noContacts, state_.still, state_.substepSize, Real(0),
                                state_.positions);
     positions.holdMotors();
-    algorithms_.correction->correct(
-        positions, {def_.positionIterations, std::min(def_.positionIterations, 2)}, def_.slop);
+    return positions;
+}
+
+template <class S>
+bool Step<S>::hasRenewed() const {
+    return std::find(state_.renewed.begin(), state_.renewed.end(), 1) != state_.renewed.end();
+}
+
+/// Joints on the half of a step to the midpoints (`there`) or back from them follow the arcs that they hold bodies on
+/// (PositionCorrection::beginDrift). On the way there those of bodies whose midpoints were not known. With continuous
+/// collision the way there may be another, and joints are put right alone.
+template <class S>
+bool Step<S>::beginDrift(bool there) {
+    if (method_.style.ownsCorrection || !algorithms_.correction->drifts() || algorithms_.ccdToMidpoints)
+        return false;
+    StepPositions<S> positions = jointPositions();
+    if (there) positions.takeOnly(state_.renewed);
+    return algorithms_.correction->beginDrift(positions);
+}
+
+/// Errors are of the order h^2: two iterations of Newton's method leave h^8.
+template <class S>
+void Step<S>::endDrift(bool drifts, bool there) {
+    if (joints_.records().empty() || method_.style.ownsCorrection) return;
+    const PositionIterations iterations{def_.positionIterations, std::min(def_.positionIterations, 2)};
+    StepPositions<S> positions = jointPositions();
+    if (!drifts) return algorithms_.correction->correct(positions, iterations, def_.slop);
+    if (there) positions.takeOnly(state_.renewed);
+    const Real half = halfOf(IslandSize::Usual);
+    algorithms_.correction->endDrift(positions, there ? half : -half, !there, iterations);
 }
 
 #define RIGOR_INSTANTIATE(S)                                          \

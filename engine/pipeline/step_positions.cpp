@@ -39,6 +39,7 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
     out.count = 0;
     if (bodies_.invMass[a] == 0 && bodies_.invMass[b] == 0) return;  // asleep
     if (record.islands == IslandSize::Large) return;                 // their joints are linearised
+    if (!only_.empty() && !only_[a] && !only_[b]) return;
     record.evaluate(record.joint, bodies_.pose[a], bodies_.pose[b], made);
     out.block.kind = BlockKind::Joint;
     out.block.a = a;
@@ -67,6 +68,7 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
         const Real K = rowK<S>(row, out.block);
         row.invK = K > 0 ? Real(1) / K : Real(0);
         out.unilateral[place] = made.law[i].role == RowRole::Limit;
+        out.driven[place] = made.law[i].role == RowRole::Motor;
         out.velocityRow[place] = record.firstRow + static_cast<std::uint32_t>(i);
     };
     const auto count = static_cast<std::size_t>(made.count);
@@ -92,6 +94,26 @@ void StepPositions<S>::move(const Block<S>& block, const Row<S>& row, Real lambd
     if (lambda == Real(0)) return;
     if (block.invMassA > 0) moveBody(block.a, -(block.invMassA * lambda) * row.lin, lambda * row.invIAngA);
     if (block.invMassB > 0) moveBody(block.b, (block.invMassB * lambda) * row.lin, lambda * row.invIAngB);
+}
+
+template <class S>
+void StepPositions<S>::push(const JointPositions<S>& joint, const Real* impulses, Real factor) {
+    typename S::Vec force = S::Vec::Zero();
+    typename S::Ang momentA = zeroAng<S>(), momentB = zeroAng<S>();
+    for (std::size_t r = 0; r < joint.block.rows; ++r) {
+        const Real impulse = factor * impulses[r];
+        force += impulse * joint.row[r].lin;
+        momentA += impulse * joint.row[r].angA;
+        momentB += impulse * joint.row[r].angB;
+    }
+    const auto change = [this](std::uint32_t body, const typename S::Vec& by, const typename S::Ang& moment) {
+        if (!(bodies_.invMass[body] > 0)) return;
+        bodies_.velocity[body].v += bodies_.invMass[body] * by;
+        bodies_.velocity[body].w +=
+            worldInertia<S>(bodies_.pose[body].q, bodies_.invInertiaLocal[body]) * moment;
+    };
+    change(joint.block.a, -force, momentA);
+    change(joint.block.b, force, momentB);
 }
 
 template <class S>

@@ -51,6 +51,12 @@ class StepPositions final : public PositionProblem<S> {
     }
     void move(const Block<S>& block, const Row<S>& row, Real lambda) override;
     void applyRotations() override;
+    Real velocity(const Block<S>& block, const Row<S>& row) const override {
+        return rowVelocity<S>(row, bodies_.velocity[block.a], bodies_.velocity[block.b]);
+    }
+    void push(const JointPositions<S>& joint, const Real* impulses, Real factor) override;
+    /// Joints of other bodies than the flagged ones are left out.
+    void takeOnly(std::span<const std::uint8_t> bodies) { only_ = bodies; }
 
   private:
     void moveBody(std::uint32_t body, const typename S::Vec& d, const typename S::Ang& turn);
@@ -61,6 +67,7 @@ class StepPositions final : public PositionProblem<S> {
     PositionScratch<S>& scratch_;
     Real h_;  ///< size of the step [s]
     bool holdsMotors_ = false;
+    std::span<const std::uint8_t> only_;
 };
 
 }  // namespace rigor::engine

@@ -25,6 +25,8 @@ struct JointPositions {
     std::array<Row<S>, kMaxPositionRows> row;                   ///< error is C now; invK of the row alone
     std::array<bool, kMaxPositionRows> unilateral{};            ///< a limit: only C < 0 is an error
     std::array<std::uint32_t, kMaxPositionRows> velocityRow{};  ///< the same row among those of the step
+    std::array<bool, kMaxPositionRows>
+        driven{};  ///< a motor that is held: its coordinate has the motor's speed
 };
 
 /// The constraints as input of position correction, after the bodies have moved.
@@ -47,6 +49,12 @@ class PositionProblem {
     virtual void move(const Block<S>& block, const Row<S>& row, typename S::Real lambda) = 0;
     /// Makes the rotations of earlier moves visible to evaluateJoint.
     virtual void applyRotations() = 0;
+    /// J v of a row, for the velocities that the bodies have now [m/s] or [rad/s].
+    virtual typename S::Real velocity(const Block<S>& block, const Row<S>& row) const = 0;
+    /// Velocities of the bodies of a joint get the impulses of its held rows times `factor`, in the inertia of the
+    /// orientations that the bodies have now.
+    virtual void push(const JointPositions<S>& joint, const typename S::Real* impulses,
+                      typename S::Real factor) = 0;
 };
 
 /// Iterations of position correction. Joint errors are of the order h^2 where a step follows the motion, and few
@@ -72,6 +80,28 @@ class PositionCorrection {
         (void)problem;
         (void)iterations;
         (void)slop;
+    }
+
+    // --- joints of bodies that have moved for a while without forces, by RATTLE [Andersen1983]: with the rows J_0 of the
+    // poses and velocities v_0 before,
+    //     q = q_0 + time v,   v = v_0 + M^-1 J_0^T mu,   C(q) = C(q_0)
+    // and v is projected onto the tangents at q, so that it has the momentum of v_0 along the joints' free directions. What
+    // was wrong in q_0, by rounding for one, is put right after that and becomes no velocity.
+    /// Whether this correction does so.
+    virtual bool drifts() const { return false; }
+    /// Called where the bodies move from. False: this correction cannot do it, or not for these joints.
+    virtual bool beginDrift(PositionProblem<S>& problem) {
+        (void)problem;
+        return false;
+    }
+    /// Called after the bodies have moved over `time` [s], which may be negative, with v_0. `whole`: all of the velocity is
+    /// projected; otherwise what mu has changed, and what v_0 has beyond the joints is left in it.
+    virtual void endDrift(PositionProblem<S>& problem, typename S::Real time, bool whole,
+                          const PositionIterations& iterations) {
+        (void)problem;
+        (void)time;
+        (void)whole;
+        (void)iterations;
     }
 };
 

@@ -94,10 +94,12 @@ void expectSamePose(const Scene<S>& scene, std::size_t i, const Scene<S>& other,
 }
 
 template <class S>
-void expectBothMoveAlone(const std::string& continuousCollision, const std::string& integrator) {
+void expectBothMoveAlone(const std::string& continuousCollision, const std::string& integrator,
+                         const std::string& positionCorrection = "ngs") {
     const auto def = [&](const std::string& solver) {
         WorldDef<S> made = byIsland<S>(6, solver, integrator);
         made.continuousCollision = continuousCollision;
+        made.positionCorrection = positionCorrection;
         return made;
     };
     Scene<S> both(def("by_island")), few(def("block")), many(def("by_island"));
@@ -136,6 +138,10 @@ TYPED_TEST(IslandsBySize, EitherMovesAsWithoutTheOther) {
             SCOPED_TRACE(choice + ", " + integrator);
             expectBothMoveAlone<TypeParam>(choice, integrator);
         }
+}
+TYPED_TEST(IslandsBySize, EitherMovesAsWithoutTheOtherByRattle) {
+    expectBothMoveAlone<TypeParam>("none", "moreau_midpoint", "rattle");
+    expectBothMoveAlone<TypeParam>("conservative_advancement", "moreau_midpoint", "rattle");
 }
 
 /// Large islands are another method: the same scene with `block` alone goes another way.

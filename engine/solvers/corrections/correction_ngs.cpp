@@ -11,7 +11,10 @@
 // out). Without contacts and limits the iterations end when they improve the joints no more. Connected joints that are
 // still apart after the usual number of iterations have further ones, whatever the others do.
 // Cost: iterations * constraints.
+//
+// `rattle` is the same, and takes joints over the halves of a step to midpoints and back by RATTLE (position_correction.hpp).
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/core/disjoint_sets.hpp"
@@ -26,6 +29,7 @@ class Ngs final : public PositionCorrection<S> {
   public:
     using Real = typename S::Real;
 
+    explicit Ngs(bool drifts) : drifts_(drifts) {}
     std::unique_ptr<PositionCorrection<S>> clone() const override { return std::make_unique<Ngs>(*this); }
 
     void correct(PositionProblem<S>& problem, const PositionIterations& iterations, Real slop) override {
@@ -44,12 +48,47 @@ class Ngs final : public PositionCorrection<S> {
             last = error;
         }
         if (last >= kNear && iterations.usual < iterations.most)
-            correctFurther(problem, iterations.most - iterations.usual);
+            correctFurther(problem, iterations.most - iterations.usual, kNear);
+    }
+
+    bool drifts() const override { return drifts_; }
+
+    bool beginDrift(PositionProblem<S>& problem) override {
+        if (!drifts_) return false;
+        evaluateAll(problem);
+        return !held_.empty() && factor(held_, joints_, system_);
+    }
+
+    void endDrift(PositionProblem<S>& problem, Real time, bool whole,
+                  const PositionIterations& iterations) override {
+        for (std::size_t k = 0; k < held_.size(); ++k) {
+            problem.evaluateJoint(held_[k], moved_);
+            JointPositions<S>& joint = joints_[held_[k]];
+            for (std::size_t r = 0; r < joint.block.rows; ++r)
+                system_.at(k)[r] = r < moved_.block.rows ? joint.row[r].error - moved_.row[r].error : Real(0);
+            if (moved_.block.rows == 0)
+                joint.block.rows = 0;  // asleep since, with all that it is connected to
+        }
+        system_.solve();
+        mu_.resize(kMaxJointRows * held_.size());
+        std::size_t awake = 0;
+        for (std::size_t k = 0; k < held_.size(); ++k) {
+            const JointPositions<S>& joint = joints_[held_[k]];
+            if (joint.block.rows == 0) continue;
+            std::copy_n(system_.at(k), joint.block.rows, mu_.begin() + kMaxJointRows * awake);
+            move(problem, joint, system_.at(k));
+            held_[awake++] = held_[k];
+        }
+        held_.resize(awake);
+        problem.applyRotations();
+        if (!held_.empty()) project(problem, Real(1) / time, whole, iterations);
     }
 
   private:
     static constexpr Real kBaumgarte = Real(0.2);  ///< beta of contacts
     static constexpr Real kNear = Real(1e-5);      ///< joint error that Newton's method squares [m] or [rad]
+    /// An error that Newton's method leaves no more than rounding of [m] or [rad].
+    inline static const Real kSquared = std::sqrt(Real(10) * std::numeric_limits<Real>::epsilon());
     static constexpr Real kRounding =
         Real(1000) * std::numeric_limits<Real>::epsilon();  ///< error that rounding leaves
     static constexpr Real kLongestMove = Real(0.2);         ///< longest move per contact and iteration [m]
@@ -61,12 +100,11 @@ class Ngs final : public PositionCorrection<S> {
     };
 
     /// Returns the largest error of a row that holds.
-    Real correctJoints(PositionProblem<S>& problem, bool together) {
+    Real evaluateAll(PositionProblem<S>& problem) {
         const std::size_t n = problem.jointCount();
-        limited_ = false;
-        if (n == 0) return 0;
         if (joints_.size() < n) joints_.resize(n);
         Real largest = 0;
+        limited_ = false;
         held_.clear();
         for (std::size_t j = 0; j < n; ++j) {
             problem.evaluateJoint(j, joints_[j]);
@@ -75,6 +113,15 @@ class Ngs final : public PositionCorrection<S> {
             held_.push_back(j);
             largest = std::max(largest, errorOf(joints_[j]));
         }
+        return largest;
+    }
+
+    /// Returns the largest error of a row that holds.
+    Real correctJoints(PositionProblem<S>& problem, bool together) {
+        const std::size_t n = problem.jointCount();
+        limited_ = false;
+        if (n == 0) return 0;
+        const Real largest = evaluateAll(problem);
         if (largest > 0) {
             if (!together || !correctTogether(problem, held_, system_)) correctOneByOne(problem, held_);
         }
@@ -82,13 +129,49 @@ class Ngs final : public PositionCorrection<S> {
         return largest;
     }
 
-    /// Goes on with the connected joints that were further apart than kNear before the last iteration. What becomes of
+    /// The end of endDrift(): Newton's iteration for the positions goes on where bodies have moved to, whose tangents the
+    /// velocities get with the impulses mu times `perTime`.
+    void project(PositionProblem<S>& problem, Real perTime, bool whole,
+                 const PositionIterations& iterations) {
+        ends_.resize(joints_.size());
+        kept_.resize(mu_.size());
+        for (std::size_t k = 0; k < held_.size(); ++k) {
+            JointPositions<S>& joint = ends_[held_[k]];
+            problem.evaluateJoint(held_[k], joint);
+            for (std::size_t r = 0; r < joint.block.rows; ++r)
+                kept_[kMaxJointRows * k + r] =
+                    whole && !joint.driven[r] ? Real(0) : problem.velocity(joint.block, joint.row[r]);
+        }
+        for (std::size_t k = 0; k < held_.size(); ++k)
+            problem.push(joints_[held_[k]], &mu_[kMaxJointRows * k], perTime);
+        if (!factor(held_, ends_, system_)) return;
+        const auto solve = [&](const auto& right, const auto& use) {
+            for (std::size_t k = 0; k < held_.size(); ++k)
+                for (std::size_t r = 0; r < ends_[held_[k]].block.rows; ++r)
+                    system_.at(k)[r] = right(ends_[held_[k]], k, r);
+            system_.solve();
+            for (std::size_t k = 0; k < held_.size(); ++k) use(ends_[held_[k]], system_.at(k));
+        };
+        solve(
+            [&](const JointPositions<S>& joint, std::size_t k, std::size_t r) {
+                return kept_[kMaxJointRows * k + r] - problem.velocity(joint.block, joint.row[r]);
+            },
+            [&](const JointPositions<S>& joint, const Real* x) { problem.push(joint, x, Real(1)); });
+        solve([](const JointPositions<S>& joint, std::size_t, std::size_t r) { return -joint.row[r].error; },
+              [&](const JointPositions<S>& joint, const Real* x) { move(problem, joint, x); });
+        problem.applyRotations();
+        std::swap(joints_, ends_);
+        correctFurther(problem, std::min(iterations.most, 1), kSquared);
+        std::swap(joints_, ends_);
+        if (limited_) correctLimits(problem);
+    }
+
+    /// Goes on with the connected joints that were further apart than `near` before the last iteration. What becomes of
     /// a part does not depend on the others.
-    void correctFurther(PositionProblem<S>& problem, int iterations) {
+    void correctFurther(PositionProblem<S>& problem, int iterations, Real near) {
         findParts();
         for (int i = 0; i < iterations; ++i) {
-            std::erase_if(held_,
-                          [this](std::size_t j) { return partOf(j).settled || partOf(j).error < kNear; });
+            std::erase_if(held_, [&](std::size_t j) { return partOf(j).settled || partOf(j).error < near; });
             if (held_.empty()) return;
             for (const std::size_t j : held_) problem.evaluateJoint(j, joints_[j]);
             findErrors();
@@ -126,13 +209,18 @@ class Ngs final : public PositionCorrection<S> {
         return largest;
     }
 
+    bool factor(std::span<const std::size_t> joints, const std::vector<JointPositions<S>>& evaluated,
+                JointSystem<S>& system) {
+        items_.clear();
+        for (const std::size_t j : joints) items_.push_back({&evaluated[j].block, evaluated[j].row.data()});
+        return system.factor(items_);
+    }
+
     /// False: there are no factors.
     bool correctTogether(PositionProblem<S>& problem, std::span<const std::size_t> joints,
                          JointSystem<S>& system) {
         if (joints.empty()) return true;
-        items_.clear();
-        for (const std::size_t j : joints) items_.push_back({&joints_[j].block, joints_[j].row.data()});
-        if (!system.factor(items_)) return false;
+        if (!factor(joints, joints_, system)) return false;
         for (std::size_t k = 0; k < joints.size(); ++k)
             for (int r = 0; r < joints_[joints[k]].block.rows; ++r)
                 system.at(k)[r] = -joints_[joints[k]].row[r].error;
@@ -183,7 +271,12 @@ class Ngs final : public PositionCorrection<S> {
         }
     }
 
+    bool drifts_ = false;
     std::vector<JointPositions<S>> joints_;
+    // --- of a drift
+    std::vector<JointPositions<S>> ends_;  ///< joints where bodies have moved to
+    JointPositions<S> moved_;
+    std::vector<Real> mu_, kept_;    ///< kMaxJointRows numbers for each held joint
     std::vector<std::size_t> held_;  ///< joints with equality rows
     std::vector<typename JointSystem<S>::Item> items_;
     JointSystem<S> system_, further_;
@@ -196,8 +289,14 @@ class Ngs final : public PositionCorrection<S> {
 
 template <class S>
 std::unique_ptr<PositionCorrection<S>> makeNgs() {
-    return std::make_unique<Ngs<S>>();
+    return std::make_unique<Ngs<S>>(false);
 }
 RIGOR_INSTANTIATE_FACTORY(makeNgs, PositionCorrection);
+
+template <class S>
+std::unique_ptr<PositionCorrection<S>> makeRattle() {
+    return std::make_unique<Ngs<S>>(true);
+}
+RIGOR_INSTANTIATE_FACTORY(makeRattle, PositionCorrection);
 
 }  // namespace rigor::engine
