@@ -21,7 +21,8 @@
 // they conserve, which the mean of two midpoints does to second order only.
 //
 // A cluster is left to the step as it is, without impacts at their own times, where
-//   - one of its bodies comes near a body that is not in flight, or a chain, mesh or height field,
+//   - one of its bodies comes near a body that is not in flight, or a chain, mesh or height field, or has pushed a dynamic
+//     one that is not in flight at a gap that only the next step would close: what it has lost the other has got,
 //   - shapes overlap already when the step begins, or approach each other more slowly than that,
 //   - there are more than kMaxImpacts impacts: chattering, which ends in contact,
 //   - a body meets a second one while it is in contact,
@@ -112,6 +113,8 @@ class FlightImpacts {
     Aabb<S> boxOf(const MovedWorld<S>& world, std::uint32_t shape, Aabb<S> box) const;
     void findPairs(const MovedWorld<S>& world);
     bool mayTouch(const MovedWorld<S>& world, const Pair& pair) const;
+    void joinPushed(const MovedWorld<S>& world);
+    void join(std::uint32_t a, std::uint32_t b);
     void addPair(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j);
     std::uint32_t rootOf(std::uint32_t body);
     Touch firstTouch(const MovedWorld<S>& world, const Pair& pair, Real from) const;

@@ -118,9 +118,33 @@ void FlightImpacts<S>::findPairs(const MovedWorld<S>& world) {
     pairs_.clear();
     blockers_.clear();
     for (const ProxyPair& pair : found_) addPair(world, pair.a, pair.b);
+    joinPushed(world);
     for (const std::uint32_t body : blockers_) blocked_[rootOf(body)] = 1;
     std::sort(pairs_.begin(), pairs_.end(),
               [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+}
+
+/// Bodies in flight that the step has pushed apart, at gaps that they close only in the next one, share a cluster: its
+/// bodies go their own ways together, or none does, so that no momentum is lost. Bodies that are not in flight keep what
+/// they got.
+template <class S>
+void FlightImpacts<S>::joinPushed(const MovedWorld<S>& world) {
+    for (const Contact<S>& contact : world.contacts.list()) {
+        const std::uint32_t a = contact.bodyA, b = contact.bodyB;
+        if (!(flying_[a] || flying_[b])) continue;
+        const auto pushes = [](const auto& total) { return total.normal > 0; };
+        if (std::none_of(contact.totals.begin(), contact.totals.end(), pushes)) continue;
+        if (flying_[a] && flying_[b])
+            join(a, b);
+        else if (world.bodies.constants[flying_[a] ? b : a].type == BodyType::Dynamic)
+            blockers_.push_back(flying_[a] ? a : b);
+    }
+}
+
+template <class S>
+void FlightImpacts<S>::join(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t rootA = rootOf(a), rootB = rootOf(b);
+    parent_[std::max(rootA, rootB)] = std::min(rootA, rootB);
 }
 
 template <class S>
@@ -136,10 +160,7 @@ void FlightImpacts<S>::addPair(const MovedWorld<S>& world, std::uint32_t i, std:
     const bool meets = (flying_[bi] || world.bodies.constants[bi].type != BodyType::Dynamic) &&
                        (flying_[bj] || world.bodies.constants[bj].type != BodyType::Dynamic) &&
                        !isComposite<S>(shapes[i].shape) && !isComposite<S>(shapes[j].shape);
-    if (flying_[bi] && flying_[bj]) {
-        const std::uint32_t a = rootOf(bi), b = rootOf(bj);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
+    if (flying_[bi] && flying_[bj]) join(bi, bj);
     if (!meets) {
         blockers_.push_back(flying_[bi] ? bi : bj);
         return;

@@ -167,5 +167,31 @@ TYPED_TEST(FlightImpact, ABrickThatTurnsAboutACornerDoesNotSinkIn) {
     EXPECT_LT(deepest, 0.04);
 }
 
+/// A ball flies at a cube that rests on ice, which is not in flight. Wherever in a step they meet, and where a step stops
+/// the ball at a gap that it would close in the next one, what one of them loses the other one gets.
+TYPED_TEST(FlightImpact, MomentumGoesToABodyThatRests) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    constexpr double speed = 5, radius = 0.2, half = 0.25, ballMass = 2, cubeMass = 3, apart = 0.31;
+    for (const double e : {0.0, 0.5})
+        for (int rate = 50; rate < 90; ++rate) {
+            WorldDef<S> def = earth<S>();
+            def.integrator = "moreau_midpoint";
+            World<S> world(def);
+            const std::uint32_t stuff = world.addMaterial(0, R(e));
+            addGround<S>(world, world.addMaterial(0, 0));
+            const BodyId cube = addCube<S>(world, 0, half, half, cubeMass, stuff);
+            const BodyId ball = addBall<S>(world, -half - radius - apart, half, radius, ballMass, stuff);
+            for (int i = 0; i < 10; ++i) world.step(R(1e-3));  // the cube comes to rest
+            world.setVelocity(ball, at<S>(speed, 0.4), spin<S>(0));
+            for (int i = 0; i * (1.0 / rate) < 0.12; ++i) {
+                world.step(R(1.0 / rate));
+                const double momentum =
+                    ballMass * double(world.velocity(ball)[0]) + cubeMass * double(world.velocity(cube)[0]);
+                ASSERT_NEAR(momentum, ballMass * speed, 1e-11) << rate << ' ' << e;
+            }
+        }
+}
+
 }  // namespace
 }  // namespace rigor::engine::test
