@@ -60,7 +60,7 @@ std::vector<std::string> notInAdapterYet(const Capabilities& capabilities) {
         const bool runs = std::find(native.begin(), native.end(), dimension) != native.end() ||
                           (dimension == 2 && capabilities.planar);
         if (!runs) continue;
-        look(shapesOf(dimension), capabilities.shapes);
+        if (capabilities.dynamics || capabilities.collision) look(shapesOf(dimension), capabilities.shapes);
         if (capabilities.dynamics) look(jointsOf(dimension), capabilities.joints);
     }
     return missing;

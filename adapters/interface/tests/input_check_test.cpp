@@ -272,12 +272,15 @@ TEST(Missing, IsWhatTheFormatHasAndNoEngineClaims) {
                                         "slider.motor", "slider.spring", "slider.break", "fixed.break",
                                         "wheel.limit", "wheel.spring", "wheel.break"}));
     c.dynamics = false;
+    c.collision = true;
     EXPECT_EQ(notInAdapterYet(c), std::vector<std::string>{"chain"});
     c.planar = true;
     c.dimensions = {3};
     EXPECT_EQ(notInAdapterYet(c),
               (std::vector<std::string>{"chain", "sphere", "hull", "half_space", "cylinder", "cone",
                                         "triangle_mesh", "height_field", "ellipsoid"}));
+    c.collision = false;
+    EXPECT_TRUE(notInAdapterYet(c).empty());
 }
 
 TEST(Planar, ShapesBecomeSolidsAroundThePlane) {
