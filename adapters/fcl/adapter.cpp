@@ -6,6 +6,7 @@
 
 #include "adapters/fcl/broadphase.hpp"
 #include "adapters/fcl/collision.hpp"
+#include "adapters/fcl/shapes.hpp"
 #include "adapters/interface/options.hpp"
 
 namespace rigor::fcl_adapter {
@@ -22,10 +23,12 @@ class FclEngine final : public adapter::Engine {
         c.collision = c.broadPhase = true;
         c.dimensions = {3};
         c.planar = true;
-        c.shapes = {"sphere",     "box",    "capsule", "cylinder",   "cone",     "hull",
-                    "half_space", "circle", "polygon", "half_plane", "ellipsoid"};
+        c.shapes = {"sphere",  "box",        "capsule",   "cylinder",      "cone",
+                    "hull",    "half_space", "ellipsoid", "triangle_mesh", "circle",
+                    "polygon", "half_plane", "segment",   "chain"};
         c.signedDistance = true;
         c.libraryLacks = {
+            {"height_field", kNoHeightField},
             {"dynamics", "README: \"FCL is a library for performing three types of proximity queries\""}};
         return c;
     }

@@ -8,12 +8,13 @@
 #include "adapters/fcl/collision.hpp"
 
 #include <fcl/narrowphase/collision.h>
-#include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/fcl/separation.hpp"
 #include "adapters/fcl/shapes.hpp"
+#include "adapters/fcl/surface.hpp"
 #include "adapters/interface/deepest_first.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/planar.hpp"
@@ -31,42 +32,11 @@ using adapter::Vec3;
 
 /// More than any pair gives: with fewer, FCL drops contacts in no particular order.
 constexpr std::size_t kMostContacts = 64;
-/// Tolerance of libccd's distance iteration, FCL's own value: it leaves errors of 2e-4 m at round shapes that
-/// are apart, but with a smaller one the assertions of its EPA fail and end the process.
-constexpr double kDistanceTolerance = 1e-6;
-/// Overlaps [m] below which EPA is not called; it failed at exact touch.
-constexpr double kLeastDepth = 1e-7;
 constexpr double kSamePoint = 1e-9;  ///< corners of a prism's two edges agree to rounding [m]
 
 template <class Kind>
 bool is(const Geometry& geometry) {
     return std::holds_alternative<Kind>(geometry);
-}
-
-struct Separation {
-    double distance = 0.0;  ///< negative inside
-    Vec3 onA, onB;
-};
-
-/// fcl::distance; nothing where libccd gives up (it throws). If `inside`, an overlap is measured by EPA;
-/// otherwise its distance is some negative number.
-std::optional<Separation> separation(const FclShape& a, const FclShape& b, bool inside,
-                                     fcl::GJKSolverType solver = fcl::GST_LIBCCD) {
-    const fcl::DistanceRequestd request(true, inside, 0.0, 0.0, kDistanceTolerance, solver);
-    fcl::DistanceResultd result;
-    try {
-        fcl::distance(a.geometry.get(), a.pose, b.geometry.get(), b.pose, request, result);
-    } catch (const std::exception&) {
-        return std::nullopt;
-    }
-    const Separation found{result.min_distance, fromFcl(result.nearest_points[0]),
-                           fromFcl(result.nearest_points[1])};
-    if (!std::isfinite(found.distance) || std::abs(found.distance) > 1e150) return std::nullopt;
-    return found;
-}
-
-bool isPolytope(const Geometry& geometry) {
-    return is<scenario::Box>(geometry) || is<scenario::ConvexHull>(geometry);
 }
 
 /// True if libccd's EPA may be called for an overlap: only for polytopes (two boxes have SAT with clipping),
@@ -76,22 +46,6 @@ bool isPolytope(const Geometry& geometry) {
 bool mayCallEpa(const Geometry& a, const Geometry& b, double depth) {
     const bool boxes = is<scenario::Box>(a) && is<scenario::Box>(b);
     return isPolytope(a) && isPolytope(b) && !boxes && depth > kLeastDepth;
-}
-
-bool pointsAgree(const Separation& s) {
-    return isFinite(s.onA) && isFinite(s.onB) &&
-           std::abs(norm(s.onA - s.onB) - std::abs(s.distance)) <= 1e-6 * (1.0 + std::abs(s.distance));
-}
-
-/// The contact of an overlap that fcl::distance measured: the normal runs from B's deepest point to A's.
-ContactPoint contactOf(const Separation& s) {
-    ContactPoint contact;
-    contact.bodyB = 1;
-    contact.depth = -s.distance;
-    contact.pointA = s.onA;
-    contact.pointB = s.onB;
-    contact.normal = (s.onA - s.onB) / norm(s.onA - s.onB);
-    return contact;
 }
 
 std::vector<ContactPoint> contactsOf(const fcl::CollisionResultd& result, const PosedShape& a,
@@ -165,11 +119,17 @@ void bringIntoPlane(std::vector<ContactPoint>& contacts) {
     contacts.swap(flat);
 }
 
+/// Contacts and witnesses as the query wants them.
+void finish(const CollisionQuery& query, CollisionAnswer& answer) {
+    if (query.dimension == 2) {
+        bringIntoPlane(answer.contacts);
+        if (answer.witnessA) answer.witnessA->z = answer.witnessB->z = 0.0;
+    }
+    adapter::keepFirst(answer.contacts, query.maxContacts);
+}
+
 Geometry solidOf(const Geometry& geometry, int dimension) {
     if (dimension == 3) return geometry;
-    if (is<scenario::Segment>(geometry) || is<scenario::Chain>(geometry))
-        throw adapter::notInAdapter("fcl",
-                                    std::string("shape '") + scenario::geometryName(geometry, 2) + "'");
     return adapter::planarGeometry(geometry);
 }
 
@@ -205,7 +165,9 @@ class FclBatch final : public adapter::CollisionBatch {
             ContactPoint contact;
             contact.bodyB = 1;
             contact.pointA = contact.pointB = fromFcl(found.pos);
-            contact.normal = fromFcl(found.normal);
+            // FCL takes a mesh first.
+            const bool ordered = found.o1 == sides_[2 * i].geometry.get();
+            contact.normal = (ordered ? 1.0 : -1.0) * fromFcl(found.normal);
             contact.depth = found.penetration_depth;
             all.push_back(contact);
         }
@@ -239,6 +201,12 @@ CollisionAnswer FclCollisionEngine::collide(const CollisionQuery& query) const {
     const fcl::GJKSolverType solver = solverOf(algorithm);
     const Geometry solidA = solidOf(*query.a.geometry, query.dimension);
     const Geometry solidB = solidOf(*query.b.geometry, query.dimension);
+    if (is<scenario::TriangleMesh>(solidA) || is<scenario::TriangleMesh>(solidB)) {
+        CollisionAnswer answer = collideSurface({&solidA, query.a.pose}, {&solidB, query.b.pose},
+                                                query.dimension == 2, algorithm == "libccd", solver);
+        finish(query, answer);
+        return answer;
+    }
     const bool unboundedA = is<scenario::HalfSpace>(solidA), unboundedB = is<scenario::HalfSpace>(solidB);
     if (unboundedA && unboundedB) throw adapter::notInAdapter("fcl", "contact points of two half-spaces");
     const FclShape a = toFcl(solidA, query.a.pose), b = toFcl(solidB, query.b.pose);
@@ -254,11 +222,7 @@ CollisionAnswer FclCollisionEngine::collide(const CollisionQuery& query) const {
     const double depth = deepest(result);
     const bool exactInside = algorithm == "libccd" && mayCallEpa(solidA, solidB, depth);
     answerDistance(a, b, unboundedA || unboundedB, exactInside, depth, solver, answer);
-    if (query.dimension == 2) {
-        bringIntoPlane(answer.contacts);
-        if (answer.witnessA) answer.witnessA->z = answer.witnessB->z = 0.0;
-    }
-    adapter::keepFirst(answer.contacts, query.maxContacts);
+    finish(query, answer);
     return answer;
 }
 

@@ -5,6 +5,7 @@
 // without caps; boxes take full sides; a half-space is solid where n.x < d.
 #include "adapters/fcl/shapes.hpp"
 
+#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
@@ -13,6 +14,7 @@
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
+#include <fcl/math/bv/OBBRSS.h>
 
 #include <cmath>
 
@@ -66,11 +68,29 @@ struct ToGeometry {
     std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::HalfSpace& h) {
         return std::make_shared<fcl::Halfspaced>(toFcl(h.normal), h.offset);
     }
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::TriangleMesh& mesh) {
+        std::vector<fcl::Vector3d> vertices;
+        for (const Vec3& v : mesh.vertices) vertices.push_back(toFcl(v));
+        std::vector<fcl::Triangle> triangles;
+        for (const auto& t : mesh.triangles)
+            triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
+                                   static_cast<std::size_t>(t[2]));
+        auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+        model->beginModel();
+        model->addSubModel(vertices, triangles);
+        model->endModel();
+        return model;
+    }
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::HeightField&) {
+        throw adapter::notInLibrary("fcl", "shape 'height_field'", kNoHeightField);
+    }
     template <class Other>
     std::shared_ptr<fcl::CollisionGeometryd> operator()(const Other& other) {
         throw adapter::notInAdapter("fcl", std::string("shape '") + scenario::geometryName(other, 3) + "'");
     }
 };
+
+}  // namespace
 
 fcl::Transform3d transformOf(const Pose& pose) {
     fcl::Transform3d transform = fcl::Transform3d::Identity();
@@ -80,8 +100,6 @@ fcl::Transform3d transformOf(const Pose& pose) {
     transform.translation() = toFcl(pose.position);
     return transform;
 }
-
-}  // namespace
 
 FclShape toFcl(const adapter::Geometry& geometry, const Pose& pose) {
     ToGeometry convert;

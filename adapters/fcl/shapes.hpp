@@ -16,7 +16,14 @@ struct FclShape {
     fcl::Transform3d pose;
 };
 
-/// Throws adapter::Unsupported for segments.
+/// The document that shows that FCL has no height fields.
+inline constexpr const char* kNoHeightField =
+    "fcl/geometry/collision_geometry.h, NODE_TYPE: none is a height field; BVH_model.h: a mesh is triangles "
+    "without a side";
+
+fcl::Transform3d transformOf(const adapter::Pose& pose);
+
+/// Throws adapter::Unsupported for segments, chains and height fields.
 FclShape toFcl(const adapter::Geometry& geometry, const adapter::Pose& pose);
 
 inline fcl::Vector3d toFcl(const adapter::Vec3& v) {

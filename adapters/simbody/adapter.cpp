@@ -38,11 +38,11 @@ class SimbodyEngine final : public adapter::EngineWithPresets, public adapter::D
         c.dynamics = true;
         c.dimensions = {3};
         c.planar = true;
-        c.joints = {"ball",          "ball.break",    "hinge",        "hinge.motor",     "hinge.spring",
-                    "hinge.break",   "slider",        "slider.motor", "slider.spring",   "slider.break",
-                    "fixed",         "fixed.break",   "distance",     "distance.spring", "distance.break",
-                    "cone_twist",    "wheel",         "wheel.motor",  "wheel.spring",    "six_dof",
-                    "six_dof.motor", "six_dof.spring"};
+        c.joints = {"ball",           "ball.spring",   "ball.break",    "hinge",        "hinge.motor",
+                    "hinge.spring",   "hinge.break",   "slider",        "slider.motor", "slider.spring",
+                    "slider.break",   "fixed",         "fixed.break",   "distance",     "distance.spring",
+                    "distance.break", "cone_twist",    "wheel",         "wheel.motor",  "wheel.spring",
+                    "six_dof",        "six_dof.motor", "six_dof.spring"};
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         for (const char* shape :
              {"sphere", "box", "capsule", "cylinder", "cone", "ellipsoid", "hull", "half_space",

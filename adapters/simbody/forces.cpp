@@ -80,6 +80,42 @@ class Spring final : public SimTK::Force::Custom::Implementation {
     double stiffness_, damping_, restLength_;
 };
 
+/// The spring and damper of a ball's swing, the angle between an axis of A and one of B. It has no direction, and no torque,
+/// where the axes coincide or are opposite.
+class SwingSpring final : public SimTK::Force::Custom::Implementation {
+  public:
+    SwingSpring(const Frame& a, const Vec3& axisA, const Frame& b, const Vec3& axisB,
+                const scenario::JointAxis& swing)
+        : a_(a.body),
+          b_(b.body),
+          axisA_(toSimbody(rotate(a.pose.orientation, axisA))),
+          axisB_(toSimbody(rotate(b.pose.orientation, axisB))),
+          stiffness_(swing.stiffness),
+          damping_(swing.damping),
+          target_(swing.target) {}
+
+    void calcForce(const SimTK::State& state, BodyForces& forces, SimTK::Vector_<SimTK::Vec3>&,
+                   SimTK::Vector&) const override {
+        const SimTK::Vec3 a = a_.getBodyRotation(state) * axisA_, b = b_.getBodyRotation(state) * axisB_;
+        const SimTK::Vec3 across = a % b;
+        const double sine = across.norm();
+        if (sine <= 0.0) return;
+        const SimTK::Vec3 n = across / sine;
+        const double angle = std::atan2(sine, SimTK::dot(a, b));
+        const double rate =
+            SimTK::dot(b_.getBodyAngularVelocity(state) - a_.getBodyAngularVelocity(state), n);
+        const SimTK::Vec3 onB = -(stiffness_ * (angle - target_) + damping_ * rate) * n;
+        b_.applyBodyTorque(state, onB, forces);
+        a_.applyBodyTorque(state, -onB, forces);
+    }
+    SimTK::Real calcPotentialEnergy(const SimTK::State&) const override { return 0.0; }
+
+  private:
+    SimTK::MobilizedBody a_, b_;
+    SimTK::Vec3 axisA_, axisB_;
+    double stiffness_, damping_, target_;
+};
+
 void addOnBody(const adapter::Scenario& scenario, Model& model, int index) {
     const Body& body = scenario.bodies[index];
     if (body.type != BodyType::Dynamic) return;
@@ -123,6 +159,10 @@ void addForces(const adapter::Scenario& scenario, Model& model) {
         if (joint.type == scenario::JointType::Distance && axis.hasSpring())
             addSpring(scenario, model, joint.bodyA, joint.anchorA, joint.bodyB, joint.anchorB, axis.stiffness,
                       axis.damping, axis.target);
+        if (joint.type == scenario::JointType::Ball && axis.hasSpring())
+            SimTK::Force::Custom(model.forces,
+                                 new SwingSpring(frameOf(scenario, model, joint.bodyA), joint.axisA,
+                                                 frameOf(scenario, model, joint.bodyB), joint.axisB, axis));
     }
 }
 

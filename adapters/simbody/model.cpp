@@ -181,8 +181,8 @@ class Builder {
         if (planar_) return {{Kind::Turn, {0, 0, 1}, &joint.axes[0]}};
         const bool cone = joint.type == JointType::ConeTwist;
         const JointAxis& swing = joint.axes[cone ? 1 : 0];
-        if (!isOnlyFree(swing) || (cone && !isOnlyFree(joint.axes[0])))
-            refuse(joint, "a spring or motor of a swing or its twist");
+        if (cone && (!isOnlyFree(swing) || !isOnlyFree(joint.axes[0])))
+            refuse(joint, "a spring or motor of a cone_twist");
         if (cone && joint.axes[0].mode == AxisMode::Locked) refuse(joint, "a twist that is locked");
         if (swing.mode != AxisMode::Locked) return {{Kind::Ball, {}}};
         return {{Kind::Turn, axisIn(own, joint)}};

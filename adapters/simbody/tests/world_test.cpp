@@ -273,5 +273,31 @@ TEST(SimbodyWorld, StatesThatTheJointAllowsAreSetAndReadBack) {
     expectStatesReadBack({{0, 1, 2}, {0, 4}, {0, 1, 2, 5}, {0, 1, 2, 3, 4, 5}});
 }
 
+/// Two free rods on a ball with a damped spring of the swing come to rest at its target; what turns them turns them against
+/// each other.
+TEST(SimbodyWorld, TheSpringOfASwingActsOnBothBodies) {
+    Scenario s = scene();
+    const int a = addLink(s, {-0.5, 0, 0}), b = addLink(s, {0.5, 0, 0});
+    Joint joint = jointOf(JointType::Ball, a, b, {0.5, 0, 0}, {-0.5, 0, 0});
+    joint.axisA = joint.axisB = {1, 0, 0};
+    joint.axes[0].mode = scenario::AxisMode::Free;
+    joint.axes[0].stiffness = 4.0;
+    joint.axes[0].damping = 1.0;
+    joint.axes[0].target = 0.5;
+    s.joints.push_back(joint);
+    s.bodies[a].angularVelocity = {0, 0, 0.1};
+    s.bodies[a].velocity = {0, -0.05, 0};
+    s.bodies[b].angularVelocity = {0, 0, -0.1};
+    s.bodies[b].velocity = {0, -0.05, 0};
+    Simulation world(s, 1.0 / 240, "preset=matched");
+    world.steps(4800);
+    const BodyState atA = world.state(a), atB = world.state(b);
+    EXPECT_NEAR(
+        std::acos(dot(rotate(atA.orientation, Vec3{1, 0, 0}), rotate(atB.orientation, Vec3{1, 0, 0}))), 0.5,
+        1e-6);
+    EXPECT_NEAR(norm(atA.angularVelocity), 0.0, 1e-6);
+    EXPECT_NEAR(norm(atB.angularVelocity), 0.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace rigor::test
