@@ -90,7 +90,7 @@ int FlightImpacts<S>::resolve(const MovedWorld<S>& world, bool bounces, std::vec
     hitClusters_.clear();
     for (Pair& pair : pairs_) {
         const bool fliesA = flying_[world.contacts.shapes()[pair.a].body] != 0;
-        pair.cluster = rootOf(world.contacts.shapes()[fliesA ? pair.a : pair.b].body);
+        pair.cluster = clusters_.rootOf(world.contacts.shapes()[fliesA ? pair.a : pair.b].body);
         pair.touch = firstTouch(world, pair, 0);
         if (pair.touch.overlapped)
             blocked_[pair.cluster] = 1;
@@ -105,7 +105,7 @@ int FlightImpacts<S>::resolve(const MovedWorld<S>& world, bool bounces, std::vec
     for (const Contact<S>& contact : world.contacts.list())
         for (const std::uint32_t body : {contact.bodyA, contact.bodyB})
             if (flying_[body] && stopsAtGap(contact) && approaches(world, contact))
-                hitClusters_.push_back(rootOf(body));
+                hitClusters_.push_back(clusters_.rootOf(body));
     keepOnce(hitClusters_);
     tumble(world);
     const std::size_t before = events.size();
@@ -126,7 +126,7 @@ void FlightImpacts<S>::tumble(const MovedWorld<S>& world) {
             if (contact.totals[i].normal > 0) stopped_[contact.bodyA] = stopped_[contact.bodyB] = 1;
     for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
         if (!flying_[i] || stopped_[i] || !tumbles<S>(world.bodies.constants[i].inertia)) continue;
-        if (blocked_[rootOf(i)]) continue;
+        if (blocked_[clusters_.rootOf(i)]) continue;
         goTo(world, i, world.h);
         world.bodies.leaveMidpoint(i);
     }
@@ -159,12 +159,6 @@ bool FlightImpacts<S>::approaches(const MovedWorld<S>& world, const Contact<S>& 
     return false;
 }
 
-template <class S>
-std::uint32_t FlightImpacts<S>::rootOf(std::uint32_t body) {
-    while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
-    return body;
-}
-
 /// False: the cluster is left to the step.
 template <class S>
 bool FlightImpacts<S>::runCluster(const MovedWorld<S>& world, std::uint32_t cluster,
@@ -173,7 +167,7 @@ bool FlightImpacts<S>::runCluster(const MovedWorld<S>& world, std::uint32_t clus
     const std::size_t eventsBefore = events.size();
     members_.clear();
     for (std::uint32_t i = 0; i < bodies.size(); ++i)
-        if (flying_[i] && rootOf(i) == cluster) members_.push_back(i);
+        if (flying_[i] && clusters_.rootOf(i) == cluster) members_.push_back(i);
     saved_.clear();
     for (const std::uint32_t i : members_) saved_.emplace_back(bodies.pose[i], bodies.velocity[i]);
     clusterPairs_.clear();
@@ -348,7 +342,7 @@ bool FlightImpacts<S>::searchFrom(const MovedWorld<S>& world, std::uint32_t body
                                            [&](const Pair& p) { return p.a == pair.a && p.b == pair.b; });
             if (known) continue;
             const bool fixed = world.bodies.constants[other].type != BodyType::Dynamic;
-            const bool member = flying_[other] && rootOf(other) == cluster;
+            const bool member = flying_[other] && clusters_.rootOf(other) == cluster;
             const bool surface = isComposite<S>(shapes[j].shape) || isComposite<S>(shapes[i].shape);
             if (!surface && !comesNear(world, pair, ways_[body].begin)) continue;
             if ((!fixed && !member) || surface) return false;
@@ -366,8 +360,7 @@ bool FlightImpacts<S>::searchFrom(const MovedWorld<S>& world, std::uint32_t body
     template void FlightImpacts<S>::tumble(const MovedWorld<S>&);                                        \
     template int FlightImpacts<S>::resolve(const MovedWorld<S>&, bool, std::vector<ImpactEvent<S>>&);    \
     template typename S::Real FlightImpacts<S>::slowestImpact(const MovedWorld<S>&, Real, std::uint32_t, \
-                                                              std::uint32_t) const;                      \
-    template std::uint32_t FlightImpacts<S>::rootOf(std::uint32_t);
+                                                              std::uint32_t) const;
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 

@@ -39,6 +39,7 @@
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/ccd/impact.hpp"
 #include "engine/core/clone_ptr.hpp"
+#include "engine/core/disjoint_sets.hpp"
 #include "engine/narrowphase/distance.hpp"
 
 namespace rigor::engine {
@@ -114,9 +115,7 @@ class FlightImpacts {
     void findPairs(const MovedWorld<S>& world);
     bool mayTouch(const MovedWorld<S>& world, const Pair& pair) const;
     void joinPushed(const MovedWorld<S>& world);
-    void join(std::uint32_t a, std::uint32_t b);
     void addPair(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j);
-    std::uint32_t rootOf(std::uint32_t body);
     Touch firstTouch(const MovedWorld<S>& world, const Pair& pair, Real from) const;
     bool comesNear(const MovedWorld<S>& world, const Pair& pair, Real from) const;
     Real turningAlong(const MovedWorld<S>& world, const Pair& pair, const Vec& n) const;
@@ -142,7 +141,7 @@ class FlightImpacts {
     std::vector<std::uint8_t> stopped_;     ///< the step has changed its velocity by a contact
     std::vector<Vec> beforeKick_, gained_;  ///< velocity added by forces [m/s]
     std::vector<Way> ways_;
-    std::vector<std::uint32_t> parent_;  ///< union-find of bodies in flight
+    DisjointSets clusters_;              ///< clusters of bodies in flight, by body
     std::vector<std::uint8_t> blocked_;  ///< 1 for a root: its cluster is left to the step
     // --- by dense shape index
     std::vector<Aabb<S>> boxes_, startBoxes_;  ///< boxes of the ways (boxOf), and of the starts alone

@@ -112,14 +112,13 @@ void FlightImpacts<S>::findPairs(const MovedWorld<S>& world) {
         movable_[i] = flying_[shape.body];
     }
     broadPhase_->update(boxes_, movable_, found_);
-    parent_.resize(world.bodies.size());
-    for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = i;
+    clusters_.begin(static_cast<std::uint32_t>(world.bodies.size()));
     blocked_.assign(world.bodies.size(), 0);
     pairs_.clear();
     blockers_.clear();
     for (const ProxyPair& pair : found_) addPair(world, pair.a, pair.b);
     joinPushed(world);
-    for (const std::uint32_t body : blockers_) blocked_[rootOf(body)] = 1;
+    for (const std::uint32_t body : blockers_) blocked_[clusters_.rootOf(body)] = 1;
     std::sort(pairs_.begin(), pairs_.end(),
               [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
 }
@@ -135,16 +134,10 @@ void FlightImpacts<S>::joinPushed(const MovedWorld<S>& world) {
         const auto pushes = [](const auto& total) { return total.normal > 0; };
         if (std::none_of(contact.totals.begin(), contact.totals.end(), pushes)) continue;
         if (flying_[a] && flying_[b])
-            join(a, b);
+            clusters_.join(a, b);
         else if (world.bodies.constants[flying_[a] ? b : a].type == BodyType::Dynamic)
             blockers_.push_back(flying_[a] ? a : b);
     }
-}
-
-template <class S>
-void FlightImpacts<S>::join(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t rootA = rootOf(a), rootB = rootOf(b);
-    parent_[std::max(rootA, rootB)] = std::min(rootA, rootB);
 }
 
 template <class S>
@@ -160,7 +153,7 @@ void FlightImpacts<S>::addPair(const MovedWorld<S>& world, std::uint32_t i, std:
     const bool meets = (flying_[bi] || world.bodies.constants[bi].type != BodyType::Dynamic) &&
                        (flying_[bj] || world.bodies.constants[bj].type != BodyType::Dynamic) &&
                        !isComposite<S>(shapes[i].shape) && !isComposite<S>(shapes[j].shape);
-    if (flying_[bi] && flying_[bj]) join(bi, bj);
+    if (flying_[bi] && flying_[bj]) clusters_.join(bi, bj);
     if (!meets) {
         blockers_.push_back(flying_[bi] ? bi : bj);
         return;
