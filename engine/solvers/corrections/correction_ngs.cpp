@@ -99,7 +99,7 @@ class Ngs final : public PositionCorrection<S> {
         bool settled = false;      ///< rounding is reached
     };
 
-    /// Returns the largest error of a row that holds.
+    /// Finds the joints as they are now. Returns the largest error of a row that holds.
     Real evaluateAll(PositionProblem<S>& problem) {
         const std::size_t n = problem.jointCount();
         if (joints_.size() < n) joints_.resize(n);
@@ -118,9 +118,6 @@ class Ngs final : public PositionCorrection<S> {
 
     /// Returns the largest error of a row that holds.
     Real correctJoints(PositionProblem<S>& problem, bool together) {
-        const std::size_t n = problem.jointCount();
-        limited_ = false;
-        if (n == 0) return 0;
         const Real largest = evaluateAll(problem);
         if (largest > 0) {
             if (!together || !correctTogether(problem, held_, system_)) correctOneByOne(problem, held_);
