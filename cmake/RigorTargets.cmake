@@ -76,6 +76,16 @@ function(rigor_adapter name)
     set_property(GLOBAL APPEND PROPERTY RIGOR_ADAPTER_TARGETS ${target})
 endfunction()
 
+# rigor_adapter_test(<test> <module>): the tests of an adapter, tests/*_test.cpp of its folder, with one of its modules.
+function(rigor_adapter_test name module)
+    file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/tests/*_test.cpp)
+    if(RIGOR_TESTS AND tests)
+        rigor_test(${name} SOURCES ${tests} LIBS rigor_adapter_interface)
+        target_compile_definitions(${name} PRIVATE RIGOR_MODULE="$<TARGET_FILE:${module}>")
+        add_dependencies(${name} ${module})
+    endif()
+endfunction()
+
 # rigor_optional_adapter(<name> <title> <licence> <found>): an engine whose package is optional. Where it was not found, a
 # manifest that is never complete says how to get it (`rigor list engines`).
 function(rigor_optional_adapter name title licence found)
