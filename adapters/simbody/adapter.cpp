@@ -38,11 +38,14 @@ class SimbodyEngine final : public adapter::EngineWithPresets, public adapter::D
         c.dynamics = true;
         c.dimensions = {3};
         c.planar = true;
-        c.joints = {"ball",           "ball.spring",   "ball.break",    "hinge",        "hinge.motor",
-                    "hinge.spring",   "hinge.break",   "slider",        "slider.motor", "slider.spring",
-                    "slider.break",   "fixed",         "fixed.break",   "distance",     "distance.spring",
-                    "distance.break", "cone_twist",    "wheel",         "wheel.motor",  "wheel.spring",
-                    "six_dof",        "six_dof.motor", "six_dof.spring"};
+        c.joints = {"ball.spring"};
+        for (const char* joint :
+             {"ball", "hinge", "slider", "fixed", "distance", "cone_twist", "wheel", "six_dof"}) {
+            c.joints.push_back(joint);
+            c.joints.push_back(joint + std::string(".break"));
+        }
+        for (const char* joint : {"hinge", "slider", "distance", "cone_twist", "wheel", "six_dof"})
+            for (const char* what : {".motor", ".spring"}) c.joints.push_back(joint + std::string(what));
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         for (const char* shape :
              {"sphere", "box", "capsule", "cylinder", "cone", "ellipsoid", "hull", "half_space",

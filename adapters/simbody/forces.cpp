@@ -80,42 +80,6 @@ class Spring final : public SimTK::Force::Custom::Implementation {
     double stiffness_, damping_, restLength_;
 };
 
-/// The spring and damper of a ball's swing, the angle between an axis of A and one of B. It has no direction, and no torque,
-/// where the axes coincide or are opposite.
-class SwingSpring final : public SimTK::Force::Custom::Implementation {
-  public:
-    SwingSpring(const Frame& a, const Vec3& axisA, const Frame& b, const Vec3& axisB,
-                const scenario::JointAxis& swing)
-        : a_(a.body),
-          b_(b.body),
-          axisA_(toSimbody(rotate(a.pose.orientation, axisA))),
-          axisB_(toSimbody(rotate(b.pose.orientation, axisB))),
-          stiffness_(swing.stiffness),
-          damping_(swing.damping),
-          target_(swing.target) {}
-
-    void calcForce(const SimTK::State& state, BodyForces& forces, SimTK::Vector_<SimTK::Vec3>&,
-                   SimTK::Vector&) const override {
-        const SimTK::Vec3 a = a_.getBodyRotation(state) * axisA_, b = b_.getBodyRotation(state) * axisB_;
-        const SimTK::Vec3 across = a % b;
-        const double sine = across.norm();
-        if (sine <= 0.0) return;
-        const SimTK::Vec3 n = across / sine;
-        const double angle = std::atan2(sine, SimTK::dot(a, b));
-        const double rate =
-            SimTK::dot(b_.getBodyAngularVelocity(state) - a_.getBodyAngularVelocity(state), n);
-        const SimTK::Vec3 onB = -(stiffness_ * (angle - target_) + damping_ * rate) * n;
-        b_.applyBodyTorque(state, onB, forces);
-        a_.applyBodyTorque(state, -onB, forces);
-    }
-    SimTK::Real calcPotentialEnergy(const SimTK::State&) const override { return 0.0; }
-
-  private:
-    SimTK::MobilizedBody a_, b_;
-    SimTK::Vec3 axisA_, axisB_;
-    double stiffness_, damping_, target_;
-};
-
 void addOnBody(const adapter::Scenario& scenario, Model& model, int index) {
     const Body& body = scenario.bodies[index];
     if (body.type != BodyType::Dynamic) return;
@@ -148,22 +112,39 @@ Frame frameOf(const adapter::Scenario& scenario, const Model& model, int body) {
     return {model.bodies[body], inverse(model.forest.links[body].frame)};
 }
 
+Sides sidesOf(const adapter::Scenario& scenario, const Model& model, const scenario::Joint& joint,
+              bool planar) {
+    const auto turnOf = [&](int body) {
+        return body == kNone ? Quat{} : scenario.bodies[body].pose.orientation;
+    };
+    return {joint, frameOf(scenario, model, joint.bodyA), frameOf(scenario, model, joint.bodyB),
+            conjugate(turnOf(joint.bodyA)) * turnOf(joint.bodyB), planar};
+}
+
+std::vector<Acting> addDriven(Model& model, const Driven& driven) {
+    const scenario::JointAxis& use = driven.use;
+    std::vector<Acting> all;
+    if (use.hasSpring()) {
+        auto* spring = new PairSpring(model.forces, driven.coordinate, use);
+        all.push_back({SimTK::Force::Custom(model.forces, spring), spring, {}});
+        if (spring->countsTurns()) model.turns.push_back(spring);
+    }
+    if (use.hasMotor()) {
+        auto* push = new PairPush(model.forces, driven.coordinate);
+        const SimTK::Force::Custom force(model.forces, push);
+        const SimTK::Constraint hold = keepSpeed(model.matter, driven.coordinate, use.motorSpeed);
+        all.push_back({force, push, hold});
+        model.motors.push_back({use.motorSpeed, use.motorMaxForce, hold, {}, push});
+    }
+    return all;
+}
+
 void addForces(const adapter::Scenario& scenario, Model& model) {
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) addOnBody(scenario, model, static_cast<int>(i));
     for (const scenario::Force& force : scenario.forces)
         if (const auto* s = std::get_if<scenario::SpringForce>(&force))
             addSpring(scenario, model, s->bodyA, s->anchorA, s->bodyB, s->anchorB, s->stiffness, s->damping,
                       s->restLength);
-    for (const scenario::Joint& joint : scenario.joints) {
-        const scenario::JointAxis& axis = joint.axes[0];
-        if (joint.type == scenario::JointType::Distance && axis.hasSpring())
-            addSpring(scenario, model, joint.bodyA, joint.anchorA, joint.bodyB, joint.anchorB, axis.stiffness,
-                      axis.damping, axis.target);
-        if (joint.type == scenario::JointType::Ball && axis.hasSpring())
-            SimTK::Force::Custom(model.forces,
-                                 new SwingSpring(frameOf(scenario, model, joint.bodyA), joint.axisA,
-                                                 frameOf(scenario, model, joint.bodyB), joint.axisB, axis));
-    }
 }
 
 }  // namespace rigor::simbody

@@ -3,14 +3,12 @@
 #include "adapters/simbody/loops.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
-
-#include "adapters/interface/joint_trees.hpp"
-#include "adapters/interface/unsupported.hpp"
 
 namespace rigor::simbody {
 
+using scenario::AxisMode;
 using scenario::Joint;
 using scenario::JointType;
 using SimTK::Constraint;
@@ -25,12 +23,24 @@ std::pair<Vec3, Vec3> across(const Vec3& axis) {
     return {one, cross(axis, one)};
 }
 
-/// True for a joint that is no more than its kind.
-bool isPlain(const Joint& joint) {
-    const scenario::JointAxis& axis = joint.axes[0];
-    if (joint.type == JointType::Fixed || joint.type == JointType::Distance) return true;
-    return !axis.hasMotor() && !axis.hasSpring() &&
-           (axis.mode == scenario::AxisMode::Free || axis.mode == scenario::AxisMode::Usual);
+/// Directions of the scenario in the frames of Simbody's bodies.
+Vec3 axisOfA(const Sides& sides) {
+    return rotate(sides.a.pose.orientation, sides.joint.axisA);
+}
+Vec3 axisOfB(const Sides& sides) {
+    return rotate(sides.b.pose.orientation, sides.joint.axisB);
+}
+std::array<Vec3, 3> axesOfA(const Sides& sides) {
+    const Vec3 x = axisOfA(sides), y = rotate(sides.a.pose.orientation, sides.joint.normalA);
+    return {x, y, cross(x, y)};
+}
+/// Turns from the frame of Simbody's body B to that of A at the initial poses.
+Quat turnOfB(const Sides& sides) {
+    return sides.a.pose.orientation * sides.relative * conjugate(sides.b.pose.orientation);
+}
+/// A direction of A as B has it at the initial poses.
+Vec3 inB(const Sides& sides, const Vec3& ofA) {
+    return rotateInverse(turnOfB(sides), ofA);
 }
 
 }  // namespace
@@ -40,56 +50,110 @@ void LoopJoint::add(Arguments&&... arguments) {
     parts_.push_back(Kind(std::forward<Arguments>(arguments)...));
 }
 
-LoopJoint::LoopJoint(const Joint& joint, int index, const Frame& a, const Frame& b, const Quat& relative,
-                     bool planar)
+LoopJoint::LoopJoint(const Sides& sides, int index, SimTK::SimbodyMatterSubsystem& matter)
     : joint_(index),
-      breakForce_(joint.breakForce),
-      breakTorque_(joint.breakTorque),
-      a_(a.body),
-      b_(b.body),
-      anchorA_(a.pose * joint.anchorA),
-      anchorB_(b.pose * joint.anchorB) {
-    const Vec3 axisA = rotate(a.pose.orientation, joint.axisA),
-               axisB = rotate(b.pose.orientation, joint.axisB);
-    const bool known = joint.type == JointType::Ball || joint.type == JointType::Hinge ||
-                       joint.type == JointType::Slider || joint.type == JointType::Fixed ||
-                       joint.type == JointType::Distance;
-    if (!known || !isPlain(joint))
-        throw adapter::notInAdapter("simbody",
-                                    std::string("a ") + jointName(joint.type) +
-                                        " with more than its kind that " +
-                                        (adapter::canBreak(joint) ? "breaks" : "closes a loop"),
-                                    "joint '" + joint.name + "'");
-    // Simbody's bodies have frames of their own.
-    const Quat turn = a.pose.orientation * relative * conjugate(b.pose.orientation);
+      breakForce_(sides.joint.breakForce),
+      breakTorque_(sides.joint.breakTorque),
+      a_(sides.a.body),
+      b_(sides.b.body),
+      anchorA_(sides.a.pose * sides.joint.anchorA),
+      anchorB_(sides.b.pose * sides.joint.anchorB) {
+    const Joint& joint = sides.joint;
+    const bool isLocked = joint.axes[0].mode == AxisMode::Locked;
     switch (joint.type) {
         case JointType::Distance:
-            add<Constraint::Rod>(a_, toSimbody(anchorA_), b_, toSimbody(anchorB_), joint.length);
+            if (!isOpen(joint.axes[0]))
+                add<Constraint::Rod>(a_, toSimbody(anchorA_), b_, toSimbody(anchorB_), joint.length);
             break;
         case JointType::Slider:
-            keepOnLine(axisA, planar);
-            keepTurn(turn, planar);
+            isLocked ? keepPoints(sides.planar) : keepOnLine(axisOfA(sides), sides.planar);
+            keepTurn(sides);
             break;
         case JointType::Fixed:
-            keepPoints(planar);
-            keepTurn(turn, planar);
+            keepPoints(sides.planar);
+            keepTurn(sides);
             break;
-        default:
-            keepPoints(planar);
-            if (joint.type == JointType::Hinge && !planar) keepAxis(axisA, axisB);
+        case JointType::Hinge:
+            keepPoints(sides.planar);
+            if (isLocked)
+                keepTurn(sides);
+            else if (!sides.planar)
+                keepAxis(axisOfA(sides), axisOfB(sides));
+            break;
+        case JointType::Ball:
+            keepPoints(sides.planar);
+            if (isLocked) keepAxis(axisOfA(sides), axisOfB(sides));
+            break;
+        case JointType::ConeTwist:
+            keepCone(sides, matter);
+            break;
+        case JointType::Wheel:
+            keepWheel(sides);
+            break;
+        case JointType::SixDof:
+            keepSixDof(sides, matter);
+            break;
     }
+}
+
+void LoopJoint::keepCone(const Sides& sides, SimTK::SimbodyMatterSubsystem& matter) {
+    keepPoints(sides.planar);
+    const auto& axes = sides.joint.axes;
+    if (axes[1].mode != AxisMode::Locked) {
+        for (const Constraint& part : keepAngles(sides, matter)) parts_.push_back(part);
+    } else if (axes[0].mode == AxisMode::Locked) {
+        keepTurn(sides);
+    } else {
+        keepAxis(axisOfA(sides), axisOfB(sides));
+    }
+}
+
+void LoopJoint::keepWheel(const Sides& sides) {
+    const auto& axes = sides.joint.axes;
+    axes[0].mode == AxisMode::Locked ? keepPoints(sides.planar) : keepOnLine(axisOfA(sides), sides.planar);
+    const Vec3& spin = sides.joint.spinAxisB;
+    if (axes[1].mode == AxisMode::Locked)
+        keepTurn(sides);
+    else if (!sides.planar)
+        keepAxis(rotate(sides.a.pose.orientation, rotate(sides.relative, spin)),
+                 rotate(sides.b.pose.orientation, spin));
+}
+
+void LoopJoint::keepSixDof(const Sides& sides, SimTK::SimbodyMatterSubsystem& matter) {
+    const auto& use = sides.joint.axes;
+    const std::array<Vec3, 3> axes = axesOfA(sides);
+    const std::size_t travels = sides.planar ? 2 : 3;
+    if (std::none_of(use.begin(), use.begin() + travels, isOpen)) {
+        keepPoints(sides.planar);
+    } else {
+        for (std::size_t k = 0; k < travels; ++k)
+            if (!isOpen(use[k])) keepInPlane(axes[k]);
+    }
+    const int open = openAngles(sides.joint);
+    if (open == 0) keepTurn(sides);
+    if (open > 1)
+        for (const Constraint& part : keepAngles(sides, matter)) parts_.push_back(part);
+    if (open != 1 || sides.planar) return;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (isOpen(use[3 + k])) keepAxis(axes[k], inB(sides, axes[k]));
 }
 
 /// In a plane the third equation of a point would be none.
 void LoopJoint::keepPoints(bool planar) {
     if (!planar) return add<Constraint::Ball>(a_, toSimbody(anchorA_), b_, toSimbody(anchorB_));
-    for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}})
-        add<Constraint::PointInPlane>(a_, UnitVec3(toSimbody(normal)), dot(normal, anchorA_), b_,
-                                      toSimbody(anchorB_));
+    for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}}) keepInPlane(normal);
 }
 
-void LoopJoint::keepTurn(const Quat& turn, bool planar) {
-    if (!planar) return add<Constraint::ConstantOrientation>(a_, toSimbody(turn), b_, SimTK::Rotation());
+/// B's anchor stays where A's is, along a direction of A.
+void LoopJoint::keepInPlane(const Vec3& normal) {
+    add<Constraint::PointInPlane>(a_, UnitVec3(toSimbody(normal)), dot(normal, anchorA_), b_,
+                                  toSimbody(anchorB_));
+}
+
+void LoopJoint::keepTurn(const Sides& sides) {
+    const Quat turn = turnOfB(sides);
+    if (!sides.planar)
+        return add<Constraint::ConstantOrientation>(a_, toSimbody(turn), b_, SimTK::Rotation());
     add<Constraint::ConstantAngle>(a_, UnitVec3(1, 0, 0), b_,
                                    UnitVec3(toSimbody(rotateInverse(turn, Vec3{0, 1, 0}))));
 }
@@ -105,9 +169,7 @@ void LoopJoint::keepOnLine(const Vec3& axisA, bool planar) {
     if (!planar)
         return add<Constraint::PointOnLine>(a_, UnitVec3(toSimbody(axisA)), toSimbody(anchorA_), b_,
                                             toSimbody(anchorB_));
-    const Vec3 normal{-axisA.y, axisA.x, 0.0};
-    add<Constraint::PointInPlane>(a_, UnitVec3(toSimbody(normal)), dot(normal, anchorA_), b_,
-                                  toSimbody(anchorB_));
+    keepInPlane({-axisA.y, axisA.x, 0.0});
 }
 
 bool LoopJoint::isIdle(const Constraint& part, const SimTK::State& state) {
@@ -146,26 +208,52 @@ void LoopJoint::dropIdle(const SimTK::MultibodySystem& system, SimTK::State& sta
 
 bool LoopJoint::holds(const SimTK::State& state) const {
     return std::none_of(parts_.begin(), parts_.end(),
-                        [&](const Constraint& part) { return part.isDisabled(state); });
+                        [&](const Constraint& part) { return part.isDisabled(state); }) &&
+           std::none_of(acting_.begin(), acting_.end(),
+                        [&](const Acting& on) { return on.handle.isDisabled(state); });
 }
 
 void LoopJoint::setHolds(SimTK::State& state, bool holds) const {
     for (const Constraint& part : parts_) holds ? part.enable(state) : part.disable(state);
+    for (const Acting& on : acting_) {
+        holds ? on.handle.enable(state) : on.handle.disable(state);
+        if (!holds && on.hold && !on.hold->isDisabled(state)) on.hold->disable(state);
+    }
 }
 
-/// Force, and torque about B's anchor, of all constraints together on B. B is the second body of each of them.
+/// Force, and torque about B's anchor, of all constraints, springs and motors together on B. B is the second body of each
+/// constraint.
 bool LoopJoint::isOverloaded(const SimTK::State& state) const {
     if (breakForce_ > 1e299 && breakTorque_ > 1e299) return false;
     const SimTK::Vec3 arm =
         b_.findStationLocationInGround(state, toSimbody(anchorB_)) - b_.getBodyOriginLocation(state);
-    SimTK::Vec3 force(0), torque(0);
-    for (const Constraint& part : parts_) {
-        const SimTK::SpatialVec on =
-            part.getConstrainedBodyForcesAsVector(state)[SimTK::ConstrainedBodyIndex(1)];
-        force += on[1];
-        torque += on[0] - arm % on[1];
+    SimTK::SpatialVec on(SimTK::Vec3(0), SimTK::Vec3(0));
+    const auto addConstraint = [&](const Constraint& part) {
+        on += part.getConstrainedBodyForcesAsVector(state)[SimTK::ConstrainedBodyIndex(1)];
+    };
+    for (const Constraint& part : parts_) addConstraint(part);
+    for (const Acting& acting : acting_) {
+        on += acting.force->onB(state);
+        if (acting.hold && !acting.hold->isDisabled(state)) addConstraint(*acting.hold);
     }
-    return force.norm() > breakForce_ || torque.norm() > breakTorque_;
+    return on[1].norm() > breakForce_ || (on[0] - arm % on[1]).norm() > breakTorque_;
+}
+
+/// The swing along y is zero where B's axis is normal to z, and along z where it is normal to y.
+std::vector<Constraint> keepAngles(const Sides& sides, SimTK::SimbodyMatterSubsystem& matter) {
+    const bool isSixDof = sides.joint.type == JointType::SixDof;
+    const auto& use = sides.joint.axes;
+    std::vector<Constraint> kept;
+    if (isSixDof ? !isOpen(use[3]) : use[0].mode == AxisMode::Locked)
+        kept.push_back(keepZero(matter, PairCoordinate(PairKind::Turn, sides, sides.joint.axisA)));
+    if (!isSixDof) return kept;
+    const std::array<Vec3, 3> axes = axesOfA(sides);
+    SimTK::MobilizedBody a = sides.a.body, b = sides.b.body;
+    for (const std::size_t k : {1, 2})
+        if (!isOpen(use[3 + k]))
+            kept.push_back(Constraint::ConstantAngle(a, UnitVec3(toSimbody(axes[3 - k])), b,
+                                                     UnitVec3(toSimbody(inB(sides, axes[0])))));
+    return kept;
 }
 
 }  // namespace rigor::simbody

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "adapters/interface/unsupported.hpp"
 #include "adapters/simbody/forces.hpp"
@@ -29,17 +28,6 @@ struct Part {
     const JointAxis* use = nullptr;
 };
 
-bool isOpen(const JointAxis& axis) {
-    return axis.mode != AxisMode::Locked && axis.mode != AxisMode::Usual;
-}
-bool isOnlyFree(const JointAxis& axis) {
-    return !axis.hasSpring() && !axis.hasMotor();
-}
-
-[[noreturn]] void refuse(const Joint& joint, const std::string& what) {
-    throw adapter::notInAdapter("simbody", what, "joint '" + joint.name + "'");
-}
-
 class Builder {
   public:
     Builder(const adapter::Scenario& scenario, bool planar) : scenario_(scenario), planar_(planar) {
@@ -49,6 +37,8 @@ class Builder {
         model_->gravity = SimTK::Force::Gravity(model_->forces, model_->matter, toSimbody(scenario.gravity));
         model_->discrete = SimTK::Force::DiscreteForces(model_->forces, model_->matter);
         for (const int body : model_->forest.order) addBody(body);
+        for (const Link& tied : model_->forest.links)
+            if (tied.joint != kNone) addTreeJoint(scenario.joints[tied.joint]);
         for (std::size_t j = 0; j < scenario.joints.size(); ++j) addLoop(static_cast<int>(j));
         addForces(scenario, *model_);
     }
@@ -155,7 +145,7 @@ class Builder {
         SimTK::MobilizedBody of = mobilizer;
         SimTK::Constraint::ConstantSpeed hold(of, SimTK::MobilizerUIndex(0), use.motorSpeed);
         hold.setDisabledByDefault(true);
-        model_->motors.push_back({mobilizer, use.motorSpeed, use.motorMaxForce, hold});
+        model_->motors.push_back({use.motorSpeed, use.motorMaxForce, hold, mobilizer, nullptr});
     }
 
     std::vector<Part> partsOf(const Link& own, const Joint& joint) const {
@@ -180,12 +170,9 @@ class Builder {
     std::vector<Part> ballOrCone(const Link& own, const Joint& joint) const {
         if (planar_) return {{Kind::Turn, {0, 0, 1}, &joint.axes[0]}};
         const bool cone = joint.type == JointType::ConeTwist;
-        const JointAxis& swing = joint.axes[cone ? 1 : 0];
-        if (cone && (!isOnlyFree(swing) || !isOnlyFree(joint.axes[0])))
-            refuse(joint, "a spring or motor of a cone_twist");
-        if (cone && joint.axes[0].mode == AxisMode::Locked) refuse(joint, "a twist that is locked");
-        if (swing.mode != AxisMode::Locked) return {{Kind::Ball, {}}};
-        return {{Kind::Turn, axisIn(own, joint)}};
+        if (joint.axes[cone ? 1 : 0].mode != AxisMode::Locked) return {{Kind::Ball, {}}};
+        if (cone && joint.axes[0].mode == AxisMode::Locked) return {};
+        return {{Kind::Turn, axisIn(own, joint), cone ? &joint.axes[0] : nullptr}};
     }
 
     /// A part that turns moves the axes of the next one.
@@ -199,19 +186,15 @@ class Builder {
         return parts;
     }
 
-    /// Travels along A's axes, and angles where one is open, or all three and free.
+    /// Travels along A's axes, and an angle where one is open alone, else a ball.
     std::vector<Part> sixDof(const Link& own, const Joint& joint) const {
         const std::array<Vec3, 3> axes = sixDofAxesIn(own, scenario_, joint);
         const auto& use = joint.axes;
         std::vector<Part> parts;
         for (std::size_t k = 0; k < 3; ++k)
             if (isOpen(use[k])) parts.push_back({Kind::Travel, axes[k], &use[k]});
-        const auto angles = std::count_if(use.begin() + 3, use.end(), isOpen);
-        if (angles > 1) {
-            if (angles == 2 || !std::all_of(use.begin() + 3, use.end(), isOnlyFree))
-                refuse(joint, "a six_dof with several angles that are not all free");
-            parts.push_back({Kind::Ball, {}});
-        }
+        const int angles = openAngles(joint);
+        if (angles > 1) parts.push_back({Kind::Ball, {}});
         for (std::size_t k = 0; k < 3; ++k)
             if (angles == 1 && isOpen(use[3 + k])) parts.push_back({Kind::Turn, axes[k], &use[3 + k]});
         if (own.reversed) std::stable_partition(parts.begin(), parts.end(), isTurn);
@@ -219,20 +202,25 @@ class Builder {
     }
     static bool isTurn(const Part& part) { return part.kind != Kind::Travel; }
 
+    /// Angles that are locked, springs and motors are constraints and forces beside a ball's mobilizer.
+    void addTreeJoint(const Joint& joint) {
+        const Sides sides = sidesOf(scenario_, *model_, joint, planar_);
+        const bool isCone = joint.type == JointType::ConeTwist && joint.axes[1].mode != AxisMode::Locked;
+        if (isCone || (joint.type == JointType::SixDof && openAngles(joint) > 1))
+            keepAngles(sides, model_->matter);
+        for (const Driven& driven : drivenCoordinates(sides, true)) addDriven(*model_, driven);
+    }
+
     void addLoop(int index) {
         const Joint& joint = scenario_.joints[index];
         const auto& loops = model_->forest.loops;
-        const AxisMode length = joint.axes[0].mode;
-        const bool rod = joint.type == JointType::Distance && length != AxisMode::Free;
-        if (joint.type == JointType::Distance && !rod && adapter::canBreak(joint))
-            refuse(joint, "a distance that breaks and is no rod");
-        if (!rod && std::find(loops.begin(), loops.end(), index) == loops.end()) return;
-        const auto turnOf = [&](int body) {
-            return body == kNone ? Quat{} : scenario_.bodies[body].pose.orientation;
-        };
-        const Quat relative = conjugate(turnOf(joint.bodyA)) * turnOf(joint.bodyB);
-        model_->loops.emplace_back(joint, index, frameOf(scenario_, *model_, joint.bodyA),
-                                   frameOf(scenario_, *model_, joint.bodyB), relative, planar_);
+        if (joint.type != JointType::Distance && std::find(loops.begin(), loops.end(), index) == loops.end())
+            return;
+        const Sides sides = sidesOf(scenario_, *model_, joint, planar_);
+        LoopJoint loop(sides, index, model_->matter);
+        for (const Driven& driven : drivenCoordinates(sides, false))
+            for (const Acting& acting : addDriven(*model_, driven)) loop.add(acting);
+        model_->loops.push_back(std::move(loop));
     }
 
     const adapter::Scenario& scenario_;

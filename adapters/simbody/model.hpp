@@ -25,13 +25,6 @@ struct Coordinate {
     SimTK::MobilizedBody mobilizer;
 };
 
-/// A coordinate that a motor drives.
-struct Motor {
-    SimTK::MobilizedBody mobilizer;
-    double speed = 0.0, maxForce = 0.0;     ///< [u/s], [N] or [N m]
-    SimTK::Constraint::ConstantSpeed hold;  ///< enabled while the motor is strong enough to keep its speed
-};
-
 struct Model {
     SimTK::MultibodySystem system;
     SimTK::SimbodyMatterSubsystem matter{system};
@@ -43,6 +36,7 @@ struct Model {
     std::vector<std::vector<Coordinate>> coordinates;  ///< parts of joints in trees, by scenario body
     std::vector<LoopJoint> loops;                      ///< joints beside the trees
     std::vector<Motor> motors;
+    std::vector<const PairSpring*> turns;  ///< springs that count full turns
 };
 
 /// `scenario` is three-dimensional and has springs by stiffness; `planar` if it was lifted. Throws Unsupported.

@@ -40,6 +40,12 @@ SimbodyWorld::SimbodyWorld(const adapter::Scenario& scenario, double dt, const a
     realize(Stage::Velocity);
 }
 
+/// Springs on angles count full turns by their last value.
+void SimbodyWorld::countTurns() {
+    if (!model_->turns.empty()) realize(Stage::Position);
+    for (const PairSpring* spring : model_->turns) spring->follow(state_);
+}
+
 bool SimbodyWorld::is(const char* key, const char* value) const {
     return adapter::textSetting(settings_, key) == value;
 }
@@ -52,6 +58,7 @@ void SimbodyWorld::place(std::span<const BodyState> states) {
     model_->system.prescribeQ(state_);
     realize(Stage::Position);
     model_->system.prescribeU(state_);
+    countTurns();
     realize(Stage::Velocity);
 }
 
@@ -144,6 +151,7 @@ void SimbodyWorld::step() {
     integrate();
     if (lost_) return;
     ++steps_;
+    countTurns();
     breakJoints();
     realize(Stage::Velocity);
 }
@@ -189,6 +197,7 @@ void SimbodyWorld::save(std::vector<unsigned char>& bytes) const {
     putAll(state_.getQ());
     putAll(state_.getU());
     for (const LoopJoint& joint : model_->loops) out.put(joint.holds(state_) ? 1.0 : 0.0);
+    for (const PairSpring* spring : model_->turns) out.put(spring->last().get(state_));
     for (const bool near : nearSpeed_) out.put(near ? 1.0 : 0.0);
     for (const Wrench& wrench : forces_) {
         out.put(wrench.force);
@@ -211,6 +220,7 @@ bool SimbodyWorld::restore(const std::vector<unsigned char>& bytes) {
     takeAll(q);
     takeAll(u);
     for (const LoopJoint& joint : model_->loops) joint.setHolds(state_, in.take() != 0.0);
+    for (const PairSpring* spring : model_->turns) spring->last().set(state_, in.take());
     for (std::size_t i = 0; i < nearSpeed_.size(); ++i) nearSpeed_[i] = in.take() != 0.0;
     releaseMotors();
     lost_ = false;

@@ -42,13 +42,19 @@ class SimbodyWorld final : public adapter::World, public adapter::Snapshots, pub
     void place(std::span<const adapter::BodyState> states);
     void prepareForces();
     void setMotors();
-    std::vector<double> motorForces(const std::vector<SimTK::Vector>& gain,
-                                    const SimTK::Vector& before) const;
-    void hold(const std::vector<std::size_t>& held, const std::vector<SimTK::Vector>& gain);
+    /// Accelerations of the coordinates with motors, [i] of the i-th motor, [j][i] by a unit of the j-th one's force.
+    struct MotorProblem {
+        std::vector<double> rates, accelerations;  ///< without motors' forces
+        std::vector<std::vector<double>> gains;
+        std::vector<SimTK::Vector> changes;  ///< accelerations of all coordinates by that unit
+    };
+    MotorProblem motorProblem();
+    std::vector<double> motorForces(const MotorProblem& problem) const;
+    void hold(const std::vector<std::size_t>& held, const MotorProblem& problem);
     void releaseMotors();
-    double rateOf(std::size_t motor, const SimTK::Vector& rates) const;
     void integrate();
     void breakJoints();
+    void countTurns();
     void realize(SimTK::Stage stage) const { model_->system.realize(state_, stage); }
     adapter::BodyState stateOf(int body) const;
     bool is(const char* key, const char* value) const;
