@@ -35,11 +35,11 @@ class DartEngine final : public adapter::Engine, public adapter::DynamicsEngine 
         c.shapes = {"sphere",  "box",        "capsule",       "cylinder",     "ellipsoid",
                     "hull",    "half_space", "triangle_mesh", "height_field", "circle",
                     "polygon", "half_plane", "segment",       "chain"};
-        c.joints = {"ball",          "ball.break",   "hinge",       "hinge.limit",   "hinge.motor",
-                    "hinge.spring",  "hinge.break",  "slider",      "slider.limit",  "slider.motor",
-                    "slider.spring", "fixed",        "fixed.break", "wheel",         "wheel.limit",
-                    "wheel.motor",   "wheel.spring", "six_dof",     "six_dof.limit", "six_dof.motor",
-                    "six_dof.spring"};
+        c.joints = {"ball",          "ball.spring",   "ball.break",   "hinge",       "hinge.limit",
+                    "hinge.motor",   "hinge.spring",  "hinge.break",  "slider",      "slider.limit",
+                    "slider.motor",  "slider.spring", "fixed",        "fixed.break", "wheel",
+                    "wheel.limit",   "wheel.motor",   "wheel.spring", "six_dof",     "six_dof.limit",
+                    "six_dof.motor", "six_dof.spring"};
         c.contactImpulses = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.contactFilters = c.shapeFilters = true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "adapters/dart/shapes.hpp"
+#include "adapters/dart/swing.hpp"
 #include "adapters/dart/world.hpp"
 #include "adapters/interface/options.hpp"
 
@@ -65,6 +66,9 @@ std::vector<LedgerEntry> DartWorld::ledger() const {
     if (std::any_of(scenario_.joints.begin(), scenario_.joints.end(), hasEulerAngles))
         add("six_dof_angles", "twist and swing", "successive turns: swing_y, swing_z, twist",
             "equal where one swing alone is open, else from the second order on different");
+    if (std::any_of(scenario_.joints.begin(), scenario_.joints.end(), hasSwingSpring))
+        add("swing_springs", "spring and damper", "a torque by the swing at the start of the step",
+            "DART's implicit springs are of single coordinates");
     if (!model_.motors.empty()) add("motors", "speed and largest force", "servo, bounded");
     add("sleeping", "off", "off");
     add("continuous_collision", "off", "off");

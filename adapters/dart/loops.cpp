@@ -6,6 +6,7 @@
 #include <dart/constraint/BallJointConstraint.hpp>
 #include <dart/constraint/WeldJointConstraint.hpp>
 
+#include "adapters/dart/swing.hpp"
 #include "adapters/interface/unsupported.hpp"
 
 namespace rigor::dart_adapter {
@@ -55,7 +56,9 @@ LoopJoint::LoopJoint(const adapter::Scenario& scenario, int index, const adapter
       breakForce_(scenario.joints[index].breakForce),
       breakTorque_(scenario.joints[index].breakTorque) {
     const Joint& joint = scenario.joints[index];
-    if (!adapter::canCloseLoop(joint))
+    Joint bare = joint;
+    if (hasSwingSpring(joint)) bare.axes[0] = {};
+    if (!adapter::canCloseLoop(bare))
         throw adapter::notInLibrary(
             "dart",
             std::string("a ") + jointName(joint.type) + (canBreak_ ? " that breaks" : " that closes a loop"),
@@ -98,7 +101,7 @@ bool LoopJoint::isOverloaded(double dt) const {
         force += linear;
         torque += part.impulse->head<3>() + part.arm.cross(linear);
     }
-    return force.norm() / dt > breakForce_ || torque.norm() / dt > breakTorque_;
+    return force.norm() / dt > breakForce_ || torque.norm() / dt + springTorque_ > breakTorque_;
 }
 
 }  // namespace rigor::dart_adapter

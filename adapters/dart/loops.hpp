@@ -27,6 +27,8 @@ class LoopJoint {
     void setHolds(bool holds) { holds_ = holds; }
     const std::vector<dart::constraint::ConstraintBasePtr>& constraints() const { return constraints_; }
 
+    /// Torque of a swing's spring in the step, which is all of a ball's [N m].
+    void setSpringTorque(double torque) { springTorque_ = torque; }
     /// True where the joint bore more in the last step than its strength.
     bool isOverloaded(double dt) const;
 
@@ -43,6 +45,7 @@ class LoopJoint {
     int joint_ = 0;
     bool canBreak_;
     double breakForce_, breakTorque_;
+    double springTorque_ = 0.0;
     bool holds_ = true;
     std::vector<dart::constraint::ConstraintBasePtr> constraints_;
     std::vector<Part> parts_;

@@ -14,6 +14,7 @@
 #include <dart/dynamics/FreeJoint.hpp>
 
 #include "adapters/dart/shapes.hpp"
+#include "adapters/dart/swing.hpp"
 #include "adapters/interface/joint_springs.hpp"
 #include "adapters/interface/planar.hpp"
 #include "adapters/interface/snapshot_numbers.hpp"
@@ -133,8 +134,22 @@ void DartWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
     forces_[body].torque += torque;
 }
 
-/// Forces of the step, gravity of bodies that have their own, and damping.
+void DartWorld::addSwingSprings() {
+    const auto of = [&](int body) { return body == kNone ? BodyState{} : stateOf(body); };
+    for (std::size_t j = 0; j < scenario_.joints.size(); ++j) {
+        const scenario::Joint& joint = scenario_.joints[j];
+        if (!hasSwingSpring(joint) || !jointHolds(static_cast<int>(j))) continue;
+        const Vec3 torque = swingTorque(joint, of(joint.bodyA), of(joint.bodyB));
+        if (joint.bodyA != kNone) applyForce(joint.bodyA, {}, -torque);
+        applyForce(joint.bodyB, {}, torque);
+        for (LoopJoint& loop : model_.loops)
+            if (loop.joint() == static_cast<int>(j)) loop.setSpringTorque(norm(torque));
+    }
+}
+
+/// Forces of the step, springs of swings, gravity of bodies that have their own, and damping.
 void DartWorld::applyForces() {
+    addSwingSprings();
     for (std::size_t b = 0; b < scenario_.bodies.size(); ++b) {
         const Body& body = scenario_.bodies[b];
         if (body.type != BodyType::Dynamic) continue;

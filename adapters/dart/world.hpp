@@ -42,6 +42,7 @@ class DartWorld final : public adapter::World, public adapter::Snapshots, public
 
     void makeSolver();
     void applyForces();
+    void addSwingSprings();
     void drive();
     void findContacts();
     void breakJoints();

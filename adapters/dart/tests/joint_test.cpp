@@ -152,6 +152,64 @@ TEST(DartJoints, TwoSwingsAreSuccessiveTurnsUnlessAllTurnsAreFree) {
     }
 }
 
+/// Two free rods in a line, each bent by one of the opposite turns, on a ball with a damped spring of the swing.
+Scenario twoRods() {
+    Scenario s = scene();
+    s.gravity = {};
+    for (const double side : {-1.0, 1.0}) {
+        const int rod = addBody(s, Sphere{0.1}, {0.5 * side, 0, 0}, 1.0, even(0.1));
+        s.bodies[rod].collides = false;
+        s.bodies[rod].angularVelocity = {0, 0, -0.1 * side};
+        s.bodies[rod].velocity = {0, -0.05, 0};
+    }
+    Joint joint;
+    joint.name = "joint";
+    joint.type = JointType::Ball;
+    joint.bodyA = 0;
+    joint.bodyB = 1;
+    joint.anchorA = {0.5, 0, 0};
+    joint.anchorB = {-0.5, 0, 0};
+    joint.axisA = joint.axisB = {1, 0, 0};
+    joint.axes[0].mode = AxisMode::Free;
+    joint.axes[0].stiffness = 4.0;
+    joint.axes[0].damping = 0.1;
+    s.joints.push_back(joint);
+    return s;
+}
+
+/// Each rod keeps its centre's height, so that 0.1 kg m^2 turn by theta = swing / 2:
+/// 0.1 theta'' = -2 (4 theta + 0.1 theta').
+TEST(DartJoints, ASpringOfASwingActsOnBothBodies) {
+    const double rate = std::sqrt(80.0 - 1.0);
+    Simulation simulation(twoRods(), kJointStep);
+    ASSERT_NE(simulation.ledgerLine("swing_springs"), nullptr);
+    for (int i = 1; i <= 480; ++i) {
+        simulation.steps(1);
+        const double t = i * kJointStep;
+        const double turn = 0.1 * std::exp(-t) * (std::cos(rate * t) - std::sin(rate * t) / rate);
+        ASSERT_NEAR(simulation.state(0).angularVelocity.z, turn, 1.5e-3) << i;
+        ASSERT_NEAR(simulation.state(1).angularVelocity.z, -simulation.state(0).angularVelocity.z, 1e-9);
+    }
+}
+
+/// The largest torque of the spring is 0.09 N m, at a swing of 0.022. A joint that has broken has no spring.
+TEST(DartJoints, ASwingsSpringLoadsTheJoint) {
+    for (const double strength : {0.1, 0.08}) {
+        SCOPED_TRACE(strength);
+        Scenario s = twoRods();
+        s.joints[0].axes[0].damping = 0.0;
+        s.joints[0].breakTorque = strength;
+        Simulation simulation(s, kJointStep);
+        simulation.steps(240);
+        EXPECT_EQ(simulation.world->jointHolds(0), strength > 0.09);
+        const double turn = simulation.state(1).angularVelocity.z;
+        simulation.steps(60);
+        if (strength < 0.09) {
+            EXPECT_NEAR(simulation.state(1).angularVelocity.z, turn, 1e-12);
+        }
+    }
+}
+
 /// Travels, one, two or three successive turns, and all turns free.
 TEST(DartJoints, StatesThatTheJointAllowsAreSetAndReadBack) {
     // A spring on the twist keeps all turns from being one ball.
