@@ -25,11 +25,13 @@ typename S::Real thickness(const ShapeRecord<S>& a, const ShapeRecord<S>& b) {
     return std::min({a.inscribedRadius, b.inscribedRadius, typename S::Real(1)});
 }
 
-/// True if the step has stopped bodies at a gap that they were closing.
+/// True if the step has stopped bodies at a gap that they were closing, or let them bounce where they close it.
 template <class S>
 bool stopsAtGap(const Contact<S>& contact) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
-        if (contact.impulses[i].normal > 0 && contact.manifold.points[i].separation > 0) return true;
+        if (contact.impulses[i].normal > 0 &&
+            (contact.bounceTime > 0 || contact.manifold.points[i].separation > 0))
+            return true;
     return false;
 }
 

@@ -74,6 +74,8 @@ struct alignas(64) Contact {
     typename S::Ang moment = zeroAng<S>(), momentTotal = zeroAng<S>();
     /// Normal of the rows of the last step if it led from midpoint to midpoint (row_lag.hpp), else 0.
     Vec lastNormal = Vec::Zero();
+    /// Time from the step's rows until its shapes touch and bounce (step_bounces.cpp) [s]; 0: not within the step.
+    Real bounceTime = 0;
 };
 
 /// Point at which the impulse of a contact point acts: the same for both bodies, otherwise opposite impulses

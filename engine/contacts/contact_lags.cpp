@@ -22,11 +22,26 @@ typename S::Real landingTime(const BodyArrays<S>& bodies, const ContactStep<S>& 
     if (step.bounces && contact.coefficients.restitution > 0) return 0;
     const std::uint32_t body = bodies.invMass[contact.bodyA] > 0 ? contact.bodyA : contact.bodyB;
     const Real closes = -step.h * (point.approach + lag.normal);
-    if (!step.mayLand[body] || closes < Real(0.25) * step.restingGap || point.separation >= closes) return 0;
+    if ((step.mayLand[body] & kMayLand) == 0 || closes < Real(0.25) * step.restingGap ||
+        point.separation >= closes)
+        return 0;
     return point.separation / closes;
 }
 
 }  // namespace
+
+template <class S>
+bool bouncesAhead(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
+                  const typename Contact<S>::Point& point) {
+    if (!step.rowsLag || step.mayLand.empty() || !step.bounces || contact.speculative) return false;
+    if (!(contact.coefficients.restitution > 0) || point.approach >= -step.restitutionThreshold) return false;
+    if (!(contact.bounceTime > 0) || point.separation <= kTouching<typename S::Real>) return false;
+    if (contact.piece != kNullIndex && point.separation >= -step.h * point.approach) return false;
+    const auto may = [&](std::uint32_t body) {
+        return bodies.invMass[body] == 0 || (step.mayLand[body] & kMayBounce) != 0;
+    };
+    return may(contact.bodyA) && may(contact.bodyB);
+}
 
 template <class S>
 void placeWithLags(const BodyArrays<S>& bodies, Contact<S>& contact, RowLags<S>& lags) {
@@ -40,6 +55,13 @@ void placeWithLags(const BodyArrays<S>& bodies, Contact<S>& contact, RowLags<S>&
 template <class S>
 void addLag(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
             std::size_t index, RowLag<S>& lag, const Block<S>& block, Row<S>* rows) {
+    if (bouncesAhead<S>(bodies, step, contact, contact.points[index])) {
+        const typename Contact<S>::Point& point = contact.points[index];
+        lag.landing = contact.piece != kNullIndex ? point.separation / (-step.h * point.approach)
+                                                  : contact.bounceTime / step.h;
+        lag.bounces = true;
+        return;
+    }
     rows[0].error += step.h * lag.normal;
     lag.landing = landingTime<S>(bodies, step, contact, contact.points[index], lag);
     if (lag.landing > 0) rows[0].bias = rows[0].relaxedBias = 0;
@@ -58,10 +80,13 @@ void findLandings(const ContactList<S>& contacts, std::span<const std::uint32_t>
     if (lags.empty()) return;
     for (const std::uint32_t k : own)
         for (std::size_t i = 0; i < lags[k].size(); ++i)
-            if (lags[k][i].landing > 0) landings.push_back({contacts[k].block[i], lags[k][i].landing});
+            if (lags[k][i].landing > 0)
+                landings.push_back({contacts[k].block[i], lags[k][i].landing, lags[k][i].bounces});
 }
 
 #define RIGOR_INSTANTIATE(S)                                                                             \
+    template bool bouncesAhead<S>(const BodyArrays<S>&, const ContactStep<S>&, const Contact<S>&,        \
+                                  const Contact<S>::Point&);                                             \
     template void placeWithLags<S>(const BodyArrays<S>&, Contact<S>&, RowLags<S>&);                      \
     template void addLag<S>(const BodyArrays<S>&, const ContactStep<S>&, const Contact<S>&, std::size_t, \
                             RowLag<S>&, const Block<S>&, Row<S>*);                                       \

@@ -44,11 +44,16 @@ struct ContactStep {
     std::span<const std::uint8_t> mayLand = {};  ///< bodies that land at their own times; empty: none
 };
 
+/// Bits of ContactStep::mayLand: what bodies may do at their own times within a step, and what they do
+/// (pipeline/step_landings.cpp, step_bounces.cpp).
+inline constexpr std::uint8_t kMayLand = 1, kMayBounce = 2, kLands = 4, kBounces = 8;
+
 /// A point of which the gap closes within the step, and whose row has the law of impact.
 template <class Real>
 struct LandingPoint {
     std::uint32_t block;
-    Real time;  ///< fraction of the step until it closes
+    Real time;     ///< fraction of the step until it closes
+    bool bounces;  ///< the contact has restitution
 };
 
 /// Numbers of points and rows that a model has passed to the solver in the last sub-step.

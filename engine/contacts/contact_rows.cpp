@@ -14,7 +14,8 @@
 //     overlap           what the bias rule makes of it (Baumgarte, soft), else 0
 // A gap with e > 0 gets no rows where it is closing faster than the threshold, or is wider than gravity alone
 // closes in a step: closing it would take the speed that the impact has to reverse, or pass on a blow that
-// has not reached it. The bodies then collide with an overlap of at most one step's motion.
+// has not reached it. The bodies then collide with an overlap of at most one step's motion, unless they bounce at their own
+// time within the step (pipeline/step_bounces.cpp).
 #include "engine/contacts/contact_rows.hpp"
 
 #include <algorithm>
@@ -90,6 +91,7 @@ bool preparePoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Conta
         contact.speculative && bounces && s > kTouching<Real> ? restitution * point.approach : Real(0);
     const bool mayBounce = restitution > 0 && s > std::max(kTouching<Real>, step.restingGap);
     if (contact.speculative || !((bounces && s > kTouching<Real>) || mayBounce)) return true;
+    if (bouncesAhead<S>(bodies, step, contact, point)) return true;
     contact.impulses[index] = {};
     return false;
 }

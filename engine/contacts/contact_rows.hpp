@@ -75,6 +75,10 @@ template <class R>
 inline constexpr R kTouching = R(64) * std::numeric_limits<R>::epsilon();
 
 // --- contact_lags.cpp
+/// Whether a point that is apart closes its gap within the step and bounces at its own time then.
+template <class S>
+bool bouncesAhead(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
+                  const typename Contact<S>::Point& point);
 /// Places the points of a contact, and finds what the rows of those that it had in the last step lag by.
 template <class S>
 void placeWithLags(const BodyArrays<S>& bodies, Contact<S>& contact, RowLags<S>& lags);

@@ -22,7 +22,8 @@ struct RowLag {
     /// Its components along the tangents are those of their rows [m/s].
     typename S::Vec slip = S::Vec::Zero();
     typename S::Real landing =
-        0;  ///< fraction of the step at which the point lands within it; 0: it does not
+        0;                 ///< fraction of the step at which the point lands within it; 0: it does not
+    bool bounces = false;  ///< it lands with restitution
     /// Changes of its arms [m] and of its normal from the middle of the step to its end.
     typename S::Vec armA = S::Vec::Zero(), armB = S::Vec::Zero(), normalTurn = S::Vec::Zero();
 };

@@ -61,8 +61,16 @@ struct StepState {
     std::vector<std::uint8_t> mayLand;  ///< bodies whose landings are impacts at their own time
     std::vector<Velocity<S>> before;    ///< velocities before the forces of the step
     std::vector<Landing<S>> landings;
-    std::vector<std::pair<std::uint32_t, Real>> held;  ///< rows and impulses that act before landings
-    std::vector<std::uint8_t> bound;                   ///< bodies that joints hold or forces act on
+    std::vector<LandingPoint<Real>> bounces;
+    std::vector<Velocity<S>> delay, delayAtEnd;  ///< what bounces take from the mean velocities of bodies
+    std::vector<Real> firstBounce;               ///< times of the bodies' first bounces; 0: none
+    std::vector<Real> startImpulses;             ///< impulses of the rows before the solve
+    std::vector<std::uint32_t> bouncing;         ///< contacts that bounce within the step, by time
+    std::vector<std::uint32_t> partners;         ///< of each body: the one that acts on it
+    std::vector<std::uint8_t> bounceBlocks;      ///< blocks that bounce or pass it on
+    std::vector<std::pair<std::uint32_t, Real>> passedOn;  ///< blocks that pass a bounce on, and its time
+    std::vector<std::pair<std::uint32_t, Real>> held;      ///< rows and impulses that act before landings
+    std::vector<std::uint8_t> bound;                       ///< bodies that joints hold or forces act on
     // --- what the result refers to
     std::vector<Real> residuals;
     std::vector<ImpactEvent<S>> impacts;
@@ -153,6 +161,15 @@ class Step {
     // step_first_frames.cpp
     void findRenewed(bool same);
     void findFirstFrames();
+    // step_bounces.cpp
+    void placeBounces();
+    MovingShape<S> movingShapeOf(std::uint32_t shape) const;
+    void findBounces();
+    void leaveSecondBounces();
+    void spreadBounces();
+    void delayBounces();
+    void shortenBounces();
+    void showBounces();
     // step_landings.cpp
     void findLandingBodies();
     void beginLandings();

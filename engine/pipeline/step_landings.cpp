@@ -18,8 +18,6 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::uint8_t kMayLand = 1, kLands = 2;  // values of StepState::mayLand
-
 template <class S>
 Landing<S>* findLanding(std::vector<Landing<S>>& landings, std::uint32_t body) {
     const auto found = std::find_if(landings.begin(), landings.end(),
@@ -42,13 +40,19 @@ void Step<S>::findLandingBodies() {
     state_.landings.clear();
     if (!algorithms_.locatesImpacts || !rowsLag()) return;
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        may[i] = state_.bound[i] && bodies_.invMass[i] > 0 ? kMayLand : 0;
+        may[i] = bodies_.invMass[i] > 0 ? (state_.bound[i] ? kMayLand | kMayBounce : kMayBounce) : 0;
     for (const auto& record : joints_.records()) may[record.joint.a] = may[record.joint.b] = 0;
-    for (const auto& record : world_.forces.records()) may[record.place.a] = may[record.place.b] = 0;
+    const auto mayNotLand = [&](std::uint32_t body) { may[body] &= kMayBounce; };
+    for (const auto& record : world_.forces.records()) {
+        mayNotLand(record.place.a);
+        mayNotLand(record.place.b);
+    }
     for (const Contact<S>& contact : contacts_.list())
         if (contact.manifold.count > 0 && bodies_.invMass[contact.bodyA] > 0 &&
-            bodies_.invMass[contact.bodyB] > 0)
-            may[contact.bodyA] = may[contact.bodyB] = 0;
+            bodies_.invMass[contact.bodyB] > 0) {
+            mayNotLand(contact.bodyA);
+            mayNotLand(contact.bodyB);
+        }
     state_.before.assign(bodies_.velocity.begin(), bodies_.velocity.end());
 }
 
@@ -58,19 +62,37 @@ void Step<S>::beginLandings() {
     std::vector<Landing<S>>& landings = state_.landings;
     landings.clear();
     state_.held.clear();
+    state_.bounces.clear();
     for (const LandingPoint<Real>& point : contactModel_.landings()) {
-        const std::uint32_t body = movedBody<S>(bodies_, rows_.blocks[point.block]);
+        const Block<S>& block = rows_.blocks[point.block];
+        if (point.bounces) {
+            state_.bounces.push_back(point);
+            for (const std::uint32_t body : {block.a, block.b})
+                if (bodies_.invMass[body] > 0) state_.mayLand[body] |= kBounces;
+            continue;
+        }
+        const std::uint32_t body = movedBody<S>(bodies_, block);
         Landing<S>* found = findLanding<S>(landings, body);
         if (found == nullptr) found = &landings.emplace_back(Landing<S>{body, Real(0), Real(0), {}});
         found->time += point.time;
         found->points += 1;
-        state_.mayLand[body] = kLands;
     }
-    for (Landing<S>& landing : landings) landing.time /= landing.points;
+    if (!state_.bounces.empty()) {
+        state_.startImpulses.resize(rows_.rows.size());
+        for (std::size_t i = 0; i < rows_.rows.size(); ++i) state_.startImpulses[i] = rows_.rows[i].impulse;
+    }
+    const auto bounces = [&](const Landing<S>& landing) {
+        return (state_.mayLand[landing.body] & kBounces) != 0;
+    };
+    landings.erase(std::remove_if(landings.begin(), landings.end(), bounces), landings.end());
+    for (Landing<S>& landing : landings) {
+        landing.time /= landing.points;
+        state_.mayLand[landing.body] |= kLands;
+    }
     if (landings.empty()) return;
     for (const Block<S>& block : rows_.blocks) {
         const std::uint32_t body = movedBody<S>(bodies_, block);
-        if (block.kind != BlockKind::Contact || state_.mayLand[body] != kLands) continue;
+        if (block.kind != BlockKind::Contact || (state_.mayLand[body] & kLands) == 0) continue;
         const Real time = findLanding<S>(landings, body)->time;
         for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
             const Real held = (Real(0.5) + time) * rows_.rows[i].impulse;
@@ -85,6 +107,7 @@ void Step<S>::beginLandings() {
 /// Bodies that have landed in this step go where they would be if they had kept their velocity until they did.
 template <class S>
 void Step<S>::placeLandings() {
+    delayBounces();
     for (const auto& [row, impulse] : state_.held) rows_.rows[row].impulse += impulse;
     for (Landing<S>& landing : state_.landings) {
         const Velocity<S>&before = state_.before[landing.body], &after = motion_.used()[landing.body];
@@ -100,6 +123,7 @@ void Step<S>::placeLandings() {
 /// one before the end.
 template <class S>
 void Step<S>::shortenLandings() {
+    shortenBounces();
     for (const Landing<S>& landing : state_.landings) {
         const Velocity<S> used = motion_.used()[landing.body];
         const Real share = std::max(Real(0), Real(2) * landing.time - Real(1)) - landing.time;

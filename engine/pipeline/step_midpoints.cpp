@@ -20,6 +20,9 @@ void Step<S>::beginFlights() {
         for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
             if (contact.impulses[i].normal > 0 && !contact.points[i].impact)
                 bound[contact.bodyA] = bound[contact.bodyB] = 1;
+    const std::vector<std::uint8_t>& valid = bodies_.midpoints.valid;
+    for (std::size_t i = 0; i < valid.size(); ++i)
+        if (valid[i] == Midpoints<S>::kBounces) bound[i] = 1;
     state_.flights.begin(bodies_, bound, Real(0.5) * state_.substepSize);
 }
 
@@ -179,6 +182,7 @@ void Step<S>::toEnd() {
     contacts_.keepSidesOfMidpoints(bodies_, tasks_);
     showContacts();
     if (algorithms_.locatesImpacts) endFlights();
+    showBounces();
 }
 
 /// A joint that breaks does so when the step begins: its last impulses are taken back.

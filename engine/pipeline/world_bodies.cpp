@@ -88,6 +88,7 @@ BodyId WorldBodies<S>::add(const BodyDef<S>& def) {
 template <class S>
 typename WorldBodies<S>::Removed WorldBodies<S>::remove(BodyId body) {
     const std::uint32_t gone = ids_.dense(body);
+    arrays_.leaveMidpoint(gone);
     const auto last = static_cast<std::uint32_t>(arrays_.size() - 1);
     const auto fill = [gone](auto& array) {
         array[gone] = array.back();

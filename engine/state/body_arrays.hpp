@@ -6,6 +6,7 @@
 // static body at the origin that joints may attach to.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -82,6 +83,8 @@ struct Midpoints {
     std::vector<Pose<S>> pose;
     std::vector<Velocity<S>> velocity;  ///< the angular velocity is that of the orientation there
     std::vector<std::uint8_t> valid;    ///< 0: to be found anew from the body's pose and velocity
+    /// A value of `valid`: the body bounces between the end of the step and its midpoint (pipeline/step_bounces.cpp).
+    static constexpr std::uint8_t kBounces = 2;
 };
 
 template <class S>
@@ -103,9 +106,14 @@ struct BodyArrays {
     std::vector<typename S::Inertia> invInertia;  ///< world axes, at the start-of-step pose
 
     std::size_t size() const { return pose.size(); }
-    /// Called when the velocity of body i has been changed from outside a step.
+    /// Called when the velocity of body i has been changed from outside a step. Where it would have bounced, it and what it
+    /// meets go on from the velocities that are shown.
     void leaveMidpoint(std::size_t i) {
-        if (i < midpoints.valid.size()) midpoints.valid[i] = 0;
+        if (i >= midpoints.valid.size()) return;
+        if (midpoints.valid[i] == Midpoints<S>::kBounces)
+            std::replace(midpoints.valid.begin(), midpoints.valid.end(), Midpoints<S>::kBounces,
+                         std::uint8_t{0});
+        midpoints.valid[i] = 0;
     }
 };
 
