@@ -62,11 +62,11 @@ struct StepState {
     std::vector<Velocity<S>> before;    ///< velocities before the forces of the step
     std::vector<Landing<S>> landings;
     std::vector<LandingPoint<Real>> bounces;
-    std::vector<Velocity<S>> delay, delayAtEnd;  ///< what bounces take from the mean velocities of bodies
+    std::vector<Velocity<S>> delay, delayAtEnd;  ///< velocities that bounces take from the means of bodies
     std::vector<Real> firstBounce;               ///< times of the bodies' first bounces; 0: none
     std::vector<Real> startImpulses;             ///< impulses of the rows before the solve
     std::vector<std::uint32_t> bouncing;         ///< contacts that bounce within the step, by time
-    std::vector<std::uint32_t> partners;         ///< of each body: the one that acts on it
+    std::vector<std::uint32_t> partners;         ///< the one body that acts on each
     std::vector<std::uint8_t> bounceBlocks;      ///< blocks that bounce or pass it on
     std::vector<std::pair<std::uint32_t, Real>> passedOn;  ///< blocks that pass a bounce on, and its time
     std::vector<std::pair<std::uint32_t, Real>> held;      ///< rows and impulses that act before landings

@@ -54,7 +54,7 @@ bool overlapsAndApproaches(const BodyArrays<S>& bodies, const Contact<S>& contac
     return false;
 }
 
-/// Where the shapes touch, `time` [s] later.
+/// The manifold where the shapes touch, `time` [s] later.
 template <class S>
 void findThere(const MovingShape<S>& a, const MovingShape<S>& b, typename S::Real time,
                const NarrowPhase<S>& narrowPhase, Manifold<S>& manifold) {
@@ -90,7 +90,7 @@ void bringBack(const BodyArrays<S>& bodies, typename S::Real time, Contact<S>& c
     contact.placed = true;
 }
 
-/// The body that acts on each: none, or more than one, kNullIndex.
+/// The body that acts on each: one of no index if none does, kNullIndex if several do.
 template <class S>
 void findPartners(const ConstraintRows<S>& rows, std::size_t bodies, std::vector<std::uint32_t>& partners) {
     constexpr std::uint32_t none = kNullIndex - 1;
