@@ -13,6 +13,17 @@
 
 namespace rigor::test {
 
+inline Joint jointOf(JointType type, int a, int b, const Vec3& anchorA, const Vec3& anchorB) {
+    Joint joint;
+    joint.name = "joint";
+    joint.type = type;
+    joint.bodyA = a;
+    joint.bodyB = b;
+    joint.anchorA = anchorA;
+    joint.anchorB = anchorB;
+    return joint;
+}
+
 /// One body on a six_dof or a wheel whose axes are all locked. `reversed`: B is static and A hangs on it, else B hangs on
 /// the world.
 struct Arm {

@@ -15,16 +15,6 @@ using scenario::Pose;
 
 constexpr double kStep = 1.0 / 480.0;
 
-Joint jointOf(JointType type, int a, int b, const Vec3& anchorA, const Vec3& anchorB) {
-    Joint joint;
-    joint.name = "joint";
-    joint.type = type;
-    joint.bodyA = a;
-    joint.bodyB = b;
-    joint.anchorA = anchorA;
-    joint.anchorB = anchorB;
-    return joint;
-}
 int addFree(Scenario& s, const Vec3& position, double mass = 1.0) {
     const int b = addBody(s, Sphere{0.1}, position, mass, even(0.1));
     s.bodies[b].collides = false;

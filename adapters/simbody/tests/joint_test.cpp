@@ -24,13 +24,7 @@ int addFree(Scenario& s, const Vec3& position, double mass, const Vec3& moments)
 
 Joint& addJoint(Scenario& s, JointType type, int a, int b, const Vec3& anchorA = {},
                 const Vec3& anchorB = {}) {
-    Joint joint;
-    joint.name = "joint";
-    joint.type = type;
-    joint.bodyA = a;
-    joint.bodyB = b;
-    joint.anchorA = anchorA;
-    joint.anchorB = anchorB;
+    Joint joint = jointOf(type, a, b, anchorA, anchorB);
     joint.axisA = joint.axisB = {1, 0, 0};
     joint.normalA = {0, 1, 0};
     return s.joints.emplace_back(joint);

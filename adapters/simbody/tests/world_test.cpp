@@ -10,17 +10,6 @@
 namespace rigor::test {
 namespace {
 
-Joint jointOf(JointType type, int a, int b, const Vec3& anchorA, const Vec3& anchorB) {
-    Joint joint;
-    joint.name = "joint";
-    joint.type = type;
-    joint.bodyA = a;
-    joint.bodyB = b;
-    joint.anchorA = anchorA;
-    joint.anchorB = anchorB;
-    return joint;
-}
-
 int addLink(Scenario& s, const Vec3& position, double mass = 1.0, const Vec3& moments = even(0.1)) {
     const int body = addBody(s, Sphere{0.1}, position, mass, moments);
     s.bodies[body].collides = false;
