@@ -33,9 +33,8 @@ typename S::Real landingTime(const BodyArrays<S>& bodies, const ContactStep<S>& 
 template <class S>
 bool bouncesAhead(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
                   const typename Contact<S>::Point& point) {
-    if (!step.rowsLag || step.mayLand.empty() || !step.bounces || contact.speculative) return false;
-    if (!(contact.coefficients.restitution > 0) || point.approach >= -step.restitutionThreshold) return false;
-    if (!(contact.bounceTime > 0) || point.separation <= kTouching<typename S::Real>) return false;
+    if (!(contact.bounceTime > 0) || point.approach >= -step.restitutionThreshold) return false;
+    if (point.separation <= kTouching<typename S::Real>) return false;
     if (contact.piece != kNullIndex && point.separation >= -step.h * point.approach) return false;
     const auto may = [&](std::uint32_t body) {
         return bodies.invMass[body] == 0 || (step.mayLand[body] & kMayBounce) != 0;

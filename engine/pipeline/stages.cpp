@@ -91,7 +91,7 @@ void Step<S>::findPairs() {
     ContactSearch<S> search{def_.speculativeDistance, def_.cacheTolerance, def_.boxMargin,
                             algorithms_.usual.speculativeMotion * state_.size};
     search.volume = algorithms_.boundingVolume;
-    search.bouncesAhead = contactModel_.bouncesAhead() || (algorithms_.locatesImpacts && rowsLag());
+    search.bouncesAhead = contactModel_.bouncesAhead() || locatesLandings();
     if (algorithms_.large) {
         search.largeCacheTolerance = algorithms_.large->cacheTolerance;
         if (std::find(bodies_.islands.begin(), bodies_.islands.end(), IslandSize::Large) !=
@@ -113,7 +113,7 @@ void Step<S>::findManifolds() {
     world_.islands.changed();
     if (algorithms_.sleeping.wake) algorithms_.sleeping.wake(sleepStep());
     if (algorithms_.large) sortIslands();
-    if (motion_.isAtMidpoint()) placeBounces();
+    if (locatesLandings()) placeBounces();
     if (rowsLag()) findFirstFrames();
 }
 

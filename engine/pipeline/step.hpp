@@ -178,6 +178,8 @@ class Step {
     void beginFlights();
     void endFlights();
     bool rowsLag() const;
+    /// Bodies land and bounce at their own times within the step.
+    bool locatesLandings() const { return algorithms_.locatesImpacts && rowsLag(); }
     ContactStep<S> contactStep() const;
     BiasRule<Real> biasRule() const;
     void solveVelocities(int iterations, bool warmStarted);

@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "engine/contacts/contact_rows.hpp"
+#include "engine/contacts/row_lag.hpp"
 #include "engine/contacts/time_of_impact.hpp"
 #include "engine/pipeline/step.hpp"
 
@@ -25,10 +26,10 @@ namespace {
 template <class S>
 typename S::Real normalSpeed(const BodyArrays<S>& bodies, const Contact<S>& contact,
                              const ManifoldPoint<S>& point) {
-    using Vec = typename S::Vec;
-    const Velocity<S>&A = bodies.velocity[contact.bodyA], &B = bodies.velocity[contact.bodyB];
-    return contact.manifold.normal.dot(B.v + cross(B.w, Vec(point.pointB - bodies.pose[contact.bodyB].p)) -
-                                       A.v - cross(A.w, Vec(point.pointA - bodies.pose[contact.bodyA].p)));
+    const std::uint32_t a = contact.bodyA, b = contact.bodyB;
+    const typename S::Vec &n = contact.manifold.normal, rA = point.pointA - bodies.pose[a].p,
+                          rB = point.pointB - bodies.pose[b].p;
+    return n.dot(relativeVelocity<S>({rA, rB, n}, bodies.velocity[a], bodies.velocity[b]));
 }
 
 /// Some point is apart, none overlaps, and one closes its gap within the step.
@@ -81,8 +82,9 @@ void bringBack(const BodyArrays<S>& bodies, typename S::Real time, Contact<S>& c
         const Vec at = impulsePoint<S>(where, bodies.invMass[a] > 0, bodies.invMass[b] > 0);
         point.rA = at - (pA + time * A.v);
         point.rB = at - (pB + time * B.v);
-        const Vec u = B.v + cross(B.w, point.rB) - A.v - cross(A.w, point.rA);
-        point.separation = std::max(-time * contact.manifold.normal.dot(u), Real(2) * kTouching<Real>);
+        const Vec& n = contact.manifold.normal;
+        const Vec u = relativeVelocity<S>({point.rA, point.rB, n}, A, B);
+        point.separation = std::max(-time * n.dot(u), Real(2) * kTouching<Real>);
         where.pointA -= time * A.v;
         where.pointB -= time * B.v;
         where.separation = point.separation;
@@ -140,12 +142,13 @@ MovingShape<S> Step<S>::movingShapeOf(std::uint32_t shape) const {
 template <class S>
 void Step<S>::findBounces() {
     ContactList<S>& contacts = contacts_.list();
-    const bool locates = algorithms_.locatesImpacts && rowsLag() && algorithms_.restitution->bounces();
+    state_.bouncing.clear();
+    if (!algorithms_.restitution->bounces()) return;
     const Real h = state_.size;
     tasks_.forEach(contacts.size(), kBodyGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts[k];
         contact.bounceTime = 0;
-        if (!locates || contact.islands == IslandSize::Large || contact.asleep || contact.speculative) return;
+        if (contact.islands == IslandSize::Large || contact.asleep || contact.speculative) return;
         if (contact.vetoed || !(contact.coefficients.restitution > 0) || contact.manifold.count == 0) return;
         if (!closes<S>(bodies_, contact, h)) return;
         if (contact.piece != kNullIndex) {  // the gap as it is: surfaces mostly take no momentum
@@ -157,8 +160,7 @@ void Step<S>::findBounces() {
         if (impact.hit && impact.converged)
             contact.bounceTime = std::min(std::max(impact.exact, impact.time), h);
     });
-    state_.bouncing.clear();
-    for (std::uint32_t k = 0; locates && k < contacts.size(); ++k)
+    for (std::uint32_t k = 0; k < contacts.size(); ++k)
         if (contacts[k].bounceTime > 0) state_.bouncing.push_back(k);
 }
 

@@ -38,7 +38,7 @@ void Step<S>::findLandingBodies() {
     std::vector<std::uint8_t>& may = state_.mayLand;
     may.assign(bodies_.size(), 0);
     state_.landings.clear();
-    if (!algorithms_.locatesImpacts || !rowsLag()) return;
+    if (!locatesLandings()) return;
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         may[i] = bodies_.invMass[i] > 0 ? (state_.bound[i] ? kMayLand | kMayBounce : kMayBounce) : 0;
     for (const auto& record : joints_.records()) may[record.joint.a] = may[record.joint.b] = 0;
