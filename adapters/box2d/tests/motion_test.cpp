@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "adapters/interface/tests/scenes.hpp"
+#include "adapters/interface/tests/joint_states.hpp"
 
 namespace rigor::test {
 namespace {
@@ -159,24 +159,13 @@ TEST(Box2dMotion, ContinuousCollisionIsOffInMatched) {
     }
 }
 
-Joint joint(JointType type, int a, int b, Vec3 anchorA, Vec3 anchorB) {
-    Joint j;
-    j.name = "joint";
-    j.type = type;
-    j.bodyA = a;
-    j.bodyB = b;
-    j.anchorA = anchorA;
-    j.anchorB = anchorB;
-    return j;
-}
-
 TEST(Box2dJoints, HingeHoldsItsAnchorAndTurns) {
     Scenario s = freeScene();
     const int a = addBody(s, Box{{0.1, 0.1, 0}}, {1, 0, 0}, 2.0, even(0.02));
     s.bodies[0].massProperties.centerOfMass = {0.05, -0.1, 0};
     s.bodies[0].pose.orientation = scenario::fromAxisAngle({0, 0, 1}, 0.5);
     const Vec3 anchor = inverse(s.bodies[0].pose) * Vec3{};
-    s.joints.push_back(joint(JointType::Hinge, scenario::kNone, a, {}, anchor));
+    s.joints.push_back(jointOf(JointType::Hinge, scenario::kNone, a, {}, anchor));
     Simulation run(s, 1.0 / 480);
     double worst = 0.0;
     for (int i = 0; i < 480; ++i) {
@@ -191,7 +180,7 @@ TEST(Box2dJoints, SliderKeepsAxisAndAngle) {
     Scenario s = freeScene();
     const int a = addBody(s, Box{{0.1, 0.1, 0}}, {0, 0, 0}, 2.0, even(0.02));
     s.bodies[0].pose.orientation = scenario::fromAxisAngle({0, 0, 1}, 0.3);
-    Joint j = joint(JointType::Slider, scenario::kNone, a, {}, {});
+    Joint j = jointOf(JointType::Slider, scenario::kNone, a, {}, {});
     const Vec3 axis{0.6, -0.8, 0};
     j.axisA = axis;
     j.axisB = rotateInverse(s.bodies[0].pose.orientation, axis);
@@ -208,8 +197,8 @@ TEST(Box2dJoints, FixedHoldsAndRodKeepsItsLength) {
     Scenario s = freeScene();
     const int held = addBody(s, Box{{0.1, 0.1, 0}}, {1, 0, 0}, 2.0, even(0.02));
     const int bob = addBody(s, Sphere{0.1}, {4, 0, 0}, 1.0, even(0.004));
-    s.joints.push_back(joint(JointType::Fixed, scenario::kNone, held, {0, 0, 0}, {-1, 0, 0}));
-    s.joints.push_back(joint(JointType::Distance, scenario::kNone, bob, {3, 0, 0}, {}));
+    s.joints.push_back(jointOf(JointType::Fixed, scenario::kNone, held, {0, 0, 0}, {-1, 0, 0}));
+    s.joints.push_back(jointOf(JointType::Distance, scenario::kNone, bob, {3, 0, 0}, {}));
     s.joints[1].length = 1.0;
     Simulation run(s, 1.0 / 480);
     double worst = 0.0;
@@ -226,7 +215,7 @@ TEST(Box2dJoints, ConnectedBodiesCollideOnlyIfRequested) {
         s.gravity = {};
         addBody(s, Sphere{0.5}, {0, 0, 0});
         addBody(s, Sphere{0.5}, {0.8, 0, 0});
-        s.joints.push_back(joint(JointType::Hinge, 0, 1, {0.4, 0, 0}, {-0.4, 0, 0}));
+        s.joints.push_back(jointOf(JointType::Hinge, 0, 1, {0.4, 0, 0}, {-0.4, 0, 0}));
         s.joints[0].collideConnected = collide;
         Simulation run(s, 1.0 / 240);
         run.steps(2);

@@ -2,19 +2,13 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #pragma once
 
-#include "adapters/interface/tests/scenes.hpp"
+#include "adapters/interface/tests/joint_states.hpp"
 
 namespace rigor::test {
 
 /// A joint of bodies a and b with anchors in their frames; `axis` is the same in both.
 inline Joint joint(JointType type, int a, int b, Vec3 anchorA, Vec3 anchorB, Vec3 axis = {0, 0, 1}) {
-    Joint j;
-    j.name = "joint";
-    j.type = type;
-    j.bodyA = a;
-    j.bodyB = b;
-    j.anchorA = anchorA;
-    j.anchorB = anchorB;
+    Joint j = jointOf(type, a, b, anchorA, anchorB);
     j.axisA = j.axisB = axis;
     return j;
 }

@@ -4,7 +4,7 @@
 // Joints that the adapter puts together from several of ODE's, and the traps on the way.
 #include <cmath>
 
-#include "adapters/interface/tests/scenes.hpp"
+#include "adapters/interface/tests/joint_states.hpp"
 #include "adapters/ode/tests/free_body.hpp"
 
 namespace rigor::test {
@@ -17,16 +17,6 @@ using scenario::Pose;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kStep = 1.0 / 480.0;
 
-Joint jointOf(JointType type, int a, int b, const Vec3& anchorA, const Vec3& anchorB) {
-    Joint joint;
-    joint.name = "joint";
-    joint.type = type;
-    joint.bodyA = a;
-    joint.bodyB = b;
-    joint.anchorA = anchorA;
-    joint.anchorB = anchorB;
-    return joint;
-}
 Vec3 at(const BodyState& state, const Vec3& local) {
     return Pose{state.position, state.orientation} * local;
 }
