@@ -288,11 +288,12 @@ template <class S>
 void JointSet<S>::updateBias(const BodyArrays<S>& bodies, const JointStep<S>& step,
                              std::span<const Velocity<S>> velocities, const Record& record,
                              ConstraintRows<S>& rows, BiasChange<Real>& change) {
+    const Block<S>& block = rows.blocks[record.block];
+    // Joints depend on the difference of positions alone. Relative to the first body it has no rounding of the place.
     const auto moved = [&](std::uint32_t i) -> Pose<S> {
-        return {bodies.pose[i].p + step.h * velocities[i].v,
+        return {(bodies.pose[i].p - bodies.pose[block.a].p) + step.h * velocities[i].v,
                 rotatedBy(bodies.pose[i].q, typename S::Ang(step.h * velocities[i].w))};
     };
-    const Block<S>& block = rows.blocks[record.block];
     typename S::Vec force = S::Vec::Zero();
     for (std::uint32_t i = 0; i < record.rows; ++i)
         force += rows.rows[record.firstRow + i].impulse * rows.rows[record.firstRow + i].lin;
