@@ -193,6 +193,7 @@ class BlockGaussSeidel final : public Solver<S> {
         Real worst = -1;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             if (!collectBlocks(input.constraints.blocks, part, kFinishRows)) continue;
+            if (!kShortensJoints && hasJoints(input) && rowsBesideEqualities(input) > 0) continue;
             if (!std::exchange(renewed, true)) input.monitor.before(input.velocities);
             const Residual left = residualOf(input);
             if (left.found <= left.goal) continue;
@@ -347,8 +348,8 @@ class BlockGaussSeidel final : public Solver<S> {
         return largest;
     }
 
-    /// Sweeps over joints and contacts may end early. In single precision heaps of ragdolls then do not come to rest: single
-    /// limbs jump by metres a second.
+    /// Sweeps over joints and contacts may end early, or in Newton's method. In single precision heaps of ragdolls then do not
+    /// come to rest: single limbs jump by metres a second.
     static constexpr bool kShortensJoints = sizeof(Real) > sizeof(float);
     static constexpr int kPlainSweeps =
         2;  ///< before conjugate gradients: most parts of scenes at rest need no more
