@@ -128,14 +128,16 @@ class Ledger {
             "by " + std::string(solver_.largeIslands) + ", with the settings of preset=fast";
         if (mayTouchMoreThan(most))
             add("large_islands", "solved as small ones",
-                "those of more than " + std::to_string(most) + " contacts " + other,
+                "those of more than " + std::to_string(most) + " contacts" +
+                    (scenario_.joints.empty() ? " " : ", each with a joint beside it counted twice, ") +
+                    other,
                 "their contacts are damped springs in single precision that carry loads by overlap, with "
                 "friction of "
                 "each patch as a whole, and their joints are linearised");
         else
             add("large_islands", "solved as small ones", "none: the bodies cannot have so many contacts");
     }
-    /// False if all pairs of shapes together are no more contacts than that.
+    /// False if all pairs of shapes together are no more contacts than that, with joints beside them counted twice.
     bool mayTouchMoreThan(int contacts) const {
         std::size_t moving = 0, fixed = 0;
         for (const scenario::Body& body : scenario_.bodies) {
@@ -147,7 +149,9 @@ class Ledger {
                     return true;  // a contact for each piece
             (body.type == scenario::BodyType::Dynamic ? moving : fixed) += body.shapes.size();
         }
-        return moving > 0 && moving * (moving - 1) / 2 + moving * fixed > static_cast<std::size_t>(contacts);
+        const std::size_t pairs = moving * (moving - 1) / 2 + moving * fixed;
+        return moving > 0 &&
+               pairs + std::min(pairs, scenario_.joints.size()) > static_cast<std::size_t>(contacts);
     }
 
     void addFriction() {

@@ -3,14 +3,16 @@
 //
 // The method by which a step solves islands and moves their bodies. Most solvers are the method of all
 // islands. One whose traits name a solver for large islands (SolverTraits::largeIslands) has two: an island
-// with more contacts than WorldDef::islandContacts is large. An island that is large stays so until it has
-// fewer than half as many, so that it does not change to and fro.
+// with more contacts than WorldDef::islandContacts is large. With joints in it as many contacts as there are joints
+// count twice: sweeps over both converge slowly, and mostly make all iterations that they may. An island that is
+// large stays so until it has fewer than half as many, so that it does not change to and fro.
 //
 // Islands do not act on each other within a step, so the step is made twice, each time of the islands of one
 // method while the bodies of the others are paused (Step::beginIslands). Two bodies that a force connects count
 // as one island here.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -43,7 +45,10 @@ struct IslandMethod {
 template <class S>
 struct IslandSort {
     struct Counts {
-        std::uint32_t contacts = 0, large = 0;  ///< large: those that were solved as of a large island
+        std::uint32_t contacts = 0, joints = 0;
+        std::uint32_t large = 0;  ///< contacts that were solved as of a large island
+        /// A contact with a joint beside it counts twice.
+        std::uint32_t size() const { return contacts + std::min(contacts, joints); }
     };
     // --- by island
     std::vector<Counts> counts;

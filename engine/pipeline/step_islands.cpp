@@ -18,7 +18,7 @@ template <class S>
 void Step<S>::sortIslands() {
     // Most small worlds end here.
     const auto most = static_cast<std::uint32_t>(def_.islandContacts);
-    if (contacts_.list().size() <= most &&
+    if (contacts_.list().size() + std::min(contacts_.list().size(), joints_.records().size()) <= most &&
         std::find(bodies_.islands.begin(), bodies_.islands.end(), IslandSize::Large) == bodies_.islands.end())
         return;
     IslandSort<S>& sort = state_.sort;
@@ -33,11 +33,14 @@ void Step<S>::sortIslands() {
         ++sort.counts[k].contacts;
         sort.counts[k].large += contact.islands == IslandSize::Large;
     }
+    for (const auto& record : joints_.records())
+        if (const std::uint32_t k = islandOf(record.joint.a, record.joint.b); k != kNullIndex)
+            ++sort.counts[k].joints;
     sort.large.assign(islands.count(), 0);
     bool any = false;
     for (std::size_t k = 0; k < islands.count(); ++k) {
         const typename IslandSort<S>::Counts& c = sort.counts[k];
-        sort.large[k] = c.contacts > most || (2 * c.large > c.contacts && 2 * c.contacts > most);
+        sort.large[k] = c.size() > most || (2 * c.large > c.contacts && 2 * c.size() > most);
         any = any || sort.large[k];
     }
     if (any) joinByForces(islands);

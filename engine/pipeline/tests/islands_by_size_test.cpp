@@ -155,6 +155,38 @@ TYPED_TEST(IslandsBySize, LargeOnesAreSolvedOtherwise) {
     for (std::size_t k = 0; k < block.bodies.size(); ++k) expectSamePose(above, k, block, k, 30);
 }
 
+/// The most contacts of an island that is not large: the smallest `island_contacts` with which columns move as by `block`.
+template <class S>
+int sizeOfColumns(int joints) {
+    const auto hash = [&](const WorldDef<S>& def) {
+        Scene<S> scene(def);
+        for (int x = 0; x < 4; ++x)
+            for (int y = 0; y < 3; ++y)
+                scene.bodies.push_back(
+                    addCube<S>(scene.world, 0.499 * x, 0.25 + 0.5 * y, 0.25, 1, scene.stone));
+        JointDef<S> joint;
+        joint.bodyA = scene.bodies[0];
+        joint.bodyB = scene.bodies[1];
+        joint.anchorA = at<S>(0, 0.25);
+        joint.anchorB = at<S>(0, -0.25);
+        joint.collideConnected = true;
+        for (int k = 0; k < joints; ++k) scene.world.addJoint(joint);
+        scene.step(0);
+        return scene.world.stateHash();
+    };
+    const std::uint64_t small = hash(byIsland<S>(6, "block"));
+    int size = 1;
+    while (hash(byIsland<S>(size)) != small) ++size;
+    return size;
+}
+TYPED_TEST(IslandsBySize, ContactsCountTwiceWithJointsBesideThem) {
+    const int contacts = sizeOfColumns<TypeParam>(0);
+    EXPECT_GT(contacts, 12);
+    EXPECT_EQ(sizeOfColumns<TypeParam>(1), contacts + 1);
+    EXPECT_EQ(sizeOfColumns<TypeParam>(5), contacts + 5);
+    EXPECT_EQ(sizeOfColumns<TypeParam>(contacts + 3), 2 * contacts);
+}
+
 template <class S>
 void expectSameStages(const std::string& integrator) {
     using R = typename S::Real;
