@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/ccd/flight_impacts.hpp"
+#include "engine/core/disjoint_sets.hpp"
 #include "engine/pipeline/step_positions.hpp"
 #include "engine/pipeline/step_result.hpp"
 #include "engine/pipeline/world_parts.hpp"
@@ -56,6 +57,8 @@ struct StepState {
     ConstraintRows<S> noContacts;         ///< always empty
     std::vector<Velocity<S>> still, way;  ///< zero; velocities of each body in the last sub-step
     std::vector<Lead<S>> leads;  ///< ways to the midpoints; integrators that have none leave them as they are
+    DisjointSets jointed;        ///< bodies that joints connect
+    std::vector<std::uint8_t> leaving;  ///< roots of those of which one leaves its midpoint
     std::vector<std::uint8_t> renewed;  ///< bodies whose midpoints were found anew in this step
     FlightImpacts<S> flights;
     std::vector<std::uint8_t> mayLand;  ///< bodies whose landings are impacts at their own time

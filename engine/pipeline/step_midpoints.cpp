@@ -217,23 +217,17 @@ void Step<S>::releaseBroken() {
 template <class S>
 void Step<S>::leaveMidpointsOfJoints() {
     if (!algorithms_.correction->drifts()) return;
+    const auto moves = [&](std::uint32_t i) { return bodies_.invMass[i] > 0; };
+    DisjointSets& jointed = state_.jointed;
+    jointed.begin(static_cast<std::uint32_t>(bodies_.size()));
+    for (const auto& record : joints_.records())
+        if (moves(record.joint.a) && moves(record.joint.b)) jointed.join(record.joint.a, record.joint.b);
+    state_.leaving.assign(bodies_.size(), 0);
     const std::vector<std::uint8_t>& valid = bodies_.midpoints.valid;
-    const auto& records = joints_.records();
-    const auto leaves = [&](std::uint32_t i) {
-        return bodies_.invMass[i] > 0 && !(i < valid.size() && valid[i]);
-    };
-    bool changed = false;
-    const auto spread = [&](const auto& record) {
-        const std::uint32_t a = record.joint.a, b = record.joint.b;
-        if (bodies_.invMass[a] == 0 || bodies_.invMass[b] == 0 || leaves(a) == leaves(b)) return;
-        bodies_.leaveMidpoint(leaves(a) ? b : a);
-        changed = true;
-    };
-    do {
-        changed = false;
-        std::for_each(records.begin(), records.end(), spread);
-        std::for_each(records.rbegin(), records.rend(), spread);
-    } while (changed);
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i)
+        if (moves(i) && !(i < valid.size() && valid[i])) state_.leaving[jointed.rootOf(i)] = 1;
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i)
+        if (state_.leaving[jointed.rootOf(i)]) bodies_.leaveMidpoint(i);
 }
 
 /// Joints alone, where the bodies are. Motors that reach their speed keep the coordinates that it has led to.
