@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/contacts/row_lag.hpp"
 #include "engine/state/sleep.hpp"
 
 namespace rigor::engine {
@@ -150,7 +151,8 @@ typename S::Real FlightImpacts<S>::normalSpeed(const Contact<S>& contact, int po
     const Velocity<S>&A = startVelocity_[a], &B = startVelocity_[b];
     const Vec rA = where.pointA - startPose_[a].p - half_ * A.v,
               rB = where.pointB - startPose_[b].p - half_ * B.v;
-    return contact.manifold.normal.dot(B.v + cross(B.w, rB) - A.v - cross(A.w, rA));
+    const Vec& n = contact.manifold.normal;
+    return n.dot(relativeVelocity<S>({rA, rB, n}, A, B));
 }
 
 template <class S>
