@@ -61,4 +61,15 @@ void runSteps(World<S>& world, double time, int steps) {
     for (int i = 0; i < steps; ++i) world.step(time / steps);
 }
 
+/// Positions and velocities of bodies, one after the other.
+template <class S>
+Eigen::VectorXd placesAndVelocities(const World<S>& world, const std::vector<BodyId>& bodies) {
+    std::vector<double> all;
+    for (const BodyId id : bodies) {
+        for (int k = 0; k < S::dim; ++k) all.push_back(world.pose(id).p[k]);
+        for (int k = 0; k < S::dim; ++k) all.push_back(world.velocity(id)[k]);
+    }
+    return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
 }  // namespace rigor::engine::test
