@@ -16,7 +16,7 @@ export class Contacts {
         this.scenario = scenario;
         this.dt = dt;
         this.coefficients = rg.pairTable(scenario);
-        this.rows = [];
+        this.clear();
         this.owners = new Map(); // number of a body in the library -> index in the scenario
         this.joined = new Set();
         const count = scenario.bodies.length;
@@ -71,6 +71,7 @@ export class Contacts {
     }
 
     add(bodyA, bodyB, manifold, settings) {
+        this.manifolds += 1;
         const [a, b] = [this.ownerOf(bodyA), this.ownerOf(bodyB)];
         const shapes = [this.shapeAt(bodyA, manifold.mSubShapeID1), this.shapeAt(bodyB, manifold.mSubShapeID2)];
         const material = (body, shape) => this.scenario.bodies[body].shapes[shape].material;
@@ -115,5 +116,11 @@ export class Contacts {
 
     clear() {
         this.rows = [];
+        this.manifolds = 0;
+    }
+
+    /** The library drops contacts for which it has no room, without an error. */
+    checkNumber(most) {
+        if (this.manifolds > most) throw new Error(`found ${this.manifolds} contacts, expected at most ${most}`);
     }
 }

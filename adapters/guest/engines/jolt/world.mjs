@@ -12,6 +12,7 @@ import { ledgerOf } from './ledger.mjs';
 import { J, quaternion, using, vector, withQuat, withRVec3, withVec3 } from './library.mjs';
 import { shapeOf } from './shapes.mjs';
 
+const kMostContacts = 16384; // what the package's memory for a step holds beside the rest
 const [kMoving, kStill, kNothing] = [0, 1, 2]; // object layers: bodies of the last touch nothing
 const kMotion = { static: 'EMotionType_Static', kinematic: 'EMotionType_Kinematic', dynamic: 'EMotionType_Dynamic' };
 
@@ -28,11 +29,15 @@ function layersInto(settings) {
     settings.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(phases, 2, pairs, 3);
 }
 
+function mostContacts(bodies) {
+    return Math.min(kMostContacts, Math.max(4096, 32 * bodies));
+}
+
 function interfaceFor(bodies) {
     const settings = new J.JoltSettings();
     settings.mMaxBodies = Math.max(1024, bodies + 16);
     settings.mMaxBodyPairs = Math.max(4096, 32 * bodies);
-    settings.mMaxContactConstraints = Math.max(4096, 32 * bodies);
+    settings.mMaxContactConstraints = mostContacts(bodies);
     settings.mMaxWorkerThreads = 0;
     layersInto(settings);
     return using(settings, () => new J.JoltInterface(settings));
@@ -155,6 +160,7 @@ export class JoltWorld extends rg.World {
         const start = performance.now();
         this.jolt.Step(this.dt, this.collisionSteps);
         const seconds = 1e-3 * (performance.now() - start);
+        this.contactsOf.checkNumber(mostContacts(this.scenario.bodies.length) * this.collisionSteps);
         const asleep = this.bodies.flatMap((body, i) => (body.IsDynamic() && !body.IsActive() ? [i] : []));
         return { seconds, asleep, broken: this.breaking.afterStep() };
     }
