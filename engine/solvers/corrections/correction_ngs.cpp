@@ -9,7 +9,8 @@
 //     contact   lambda = max(0, -beta (C + slop)) / K           beta < 1 lets coupled contacts converge
 // Velocities are not touched, so no energy enters through them (potential energy does: bodies are lifted
 // out). Without contacts and limits the iterations end when they improve the joints no more. Connected joints that are
-// still apart after the usual number of iterations have further ones, whatever the others do.
+// still apart after the usual number of iterations have further ones, whatever the others do. Where these come no nearer, as in
+// nets, which have more rows than motions, K is made larger on its diagonal, as by Levenberg and Marquardt.
 // Cost: iterations * constraints.
 //
 // `rattle` is the same, and takes joints over the halves of a step to midpoints and back by RATTLE (position_correction.hpp).
@@ -92,11 +93,20 @@ class Ngs final : public PositionCorrection<S> {
     static constexpr Real kRounding =
         Real(1000) * std::numeric_limits<Real>::epsilon();  ///< error that rounding leaves
     static constexpr Real kLongestMove = Real(0.2);         ///< longest move per contact and iteration [m]
+    static constexpr Real kLeastDamping = Real(1e-3), kMostDamping = Real(0.3);
 
     /// Connected joints in further iterations.
     struct Part {
         Real error = 0, last = 0;  ///< largest when its joints were evaluated, and before
+        int loops = 0;             ///< joints that close a loop
+        Real damping = 0;          ///< fraction of K's diagonal that is added to it, where there are loops
         bool settled = false;      ///< rounding is reached
+        void renewDamping() {
+            if (loops > 0 && last > 0 && !(error < last))
+                damping = std::clamp(100 * damping, kLeastDamping, kMostDamping);
+            else if ((damping *= Real(0.5)) < kLeastDamping)
+                damping = 0;
+        }
     };
 
     /// Finds the joints as they are now. Returns the largest error of a row that holds.
@@ -172,8 +182,15 @@ class Ngs final : public PositionCorrection<S> {
             if (held_.empty()) return;
             for (const std::size_t j : held_) problem.evaluateJoint(j, joints_[j]);
             findErrors();
+            for (Part& part : parts_) part.renewDamping();
+            for (const std::size_t j : held_) damp(joints_[j], partOf(j).damping);
             if (!correctTogether(problem, held_, further_)) correctOneByOne(problem, held_);
         }
+    }
+    static void damp(JointPositions<S>& joint, Real damping) {
+        if (damping == 0) return;
+        for (std::size_t r = 0; r < joint.block.rows; ++r)
+            if (joint.row[r].invK > 0) joint.row[r].softness = damping / joint.row[r].invK;
     }
 
     void findParts() {
@@ -181,11 +198,15 @@ class Ngs final : public PositionCorrection<S> {
         for (const std::size_t j : held_)
             bodies = std::max({bodies, joints_[j].block.a + 1, joints_[j].block.b + 1});
         sets_.begin(bodies);
+        closing_.clear();
         for (const std::size_t j : held_) {
             const Block<S>& block = joints_[j].block;
-            if (block.invMassA > 0 && block.invMassB > 0) sets_.join(block.a, block.b);
+            if (!(block.invMassA > 0 && block.invMassB > 0)) continue;
+            if (sets_.rootOf(block.a) == sets_.rootOf(block.b)) closing_.push_back(j);
+            sets_.join(block.a, block.b);
         }
         parts_.assign(bodies, Part{});
+        for (const std::size_t j : closing_) ++partOf(j).loops;
         findErrors();
     }
     Part& partOf(std::size_t joint) {
@@ -277,9 +298,10 @@ class Ngs final : public PositionCorrection<S> {
     std::vector<std::size_t> held_;  ///< joints with equality rows
     std::vector<typename JointSystem<S>::Item> items_;
     JointSystem<S> system_, further_;
-    DisjointSets sets_;        ///< bodies that joints connect
-    std::vector<Part> parts_;  ///< at the root of their bodies
-    bool limited_ = false;     ///< some joint has limits
+    DisjointSets sets_;                 ///< bodies that joints connect
+    std::vector<std::size_t> closing_;  ///< joints that close loops
+    std::vector<Part> parts_;           ///< at the root of their bodies
+    bool limited_ = false;              ///< some joint has limits
 };
 
 }  // namespace
