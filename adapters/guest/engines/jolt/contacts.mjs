@@ -119,7 +119,7 @@ export class Contacts {
         this.manifolds = 0;
     }
 
-    /** The library drops contacts for which it has no room, without an error. */
+    /** With more contacts than it has room for the library goes on without an error (measured). */
     checkNumber(most) {
         if (this.manifolds > most) throw new Error(`found ${this.manifolds} contacts, expected at most ${most}`);
     }
