@@ -98,11 +98,11 @@ class Ngs final : public PositionCorrection<S> {
     /// Connected joints in further iterations.
     struct Part {
         Real error = 0, last = 0;  ///< largest when its joints were evaluated, and before
-        int loops = 0;             ///< joints that close a loop
         Real damping = 0;          ///< fraction of K's diagonal that is added to it, where there are loops
         bool settled = false;      ///< rounding is reached
+        bool looped = false;       ///< some joint closes a loop
         void renewDamping() {
-            if (loops > 0 && last > 0 && !(error < last))
+            if (looped && last > 0 && !(error < last))
                 damping = std::clamp(100 * damping, kLeastDamping, kMostDamping);
             else if ((damping *= Real(0.5)) < kLeastDamping)
                 damping = 0;
@@ -206,7 +206,7 @@ class Ngs final : public PositionCorrection<S> {
             sets_.join(block.a, block.b);
         }
         parts_.assign(bodies, Part{});
-        for (const std::size_t j : closing_) ++partOf(j).loops;
+        for (const std::size_t j : closing_) partOf(j).looped = true;
         findErrors();
     }
     Part& partOf(std::size_t joint) {

@@ -112,6 +112,11 @@ class BlockGaussSeidel final : public Solver<S> {
                            [&](std::uint32_t k) { return isJoint(input.constraints.blocks[k]); });
     }
 
+    /// The blocks in blocks_ are joints and what presses beside their equality rows: contacts, limits, motors.
+    bool mixesJoints(const SolverInput<S>& input) const {
+        return hasJoints(input) && rowsBesideEqualities(input) > 0;
+    }
+
     /// Renews the biases of parts that are not solved yet.
     void renewBiases(const SolverInput<S>& input, int iteration) {
         if (iteration == 0 || parts_.count() == 1) return input.monitor.before(input.velocities);
@@ -146,7 +151,7 @@ class BlockGaussSeidel final : public Solver<S> {
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             if (solved_[part]) continue;
             collectBlocks(input.constraints.blocks, part, std::numeric_limits<std::size_t>::max());
-            if (!hasJoints(input) || rowsBesideEqualities(input) == 0) continue;
+            if (!mixesJoints(input)) continue;
             const Real change = changeOf(part);
             if (change > kStalled * before_[part]) solved_[part] = stalled_[part] = 1;
             before_[part] = change;
@@ -193,7 +198,7 @@ class BlockGaussSeidel final : public Solver<S> {
         Real worst = -1;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             if (!collectBlocks(input.constraints.blocks, part, kFinishRows)) continue;
-            if (!kShortensJoints && hasJoints(input) && rowsBesideEqualities(input) > 0) continue;
+            if (!kShortensJoints && mixesJoints(input)) continue;
             if (!std::exchange(renewed, true)) input.monitor.before(input.velocities);
             const Residual left = residualOf(input);
             if (left.found <= left.goal) continue;
