@@ -13,6 +13,7 @@
 #include "engine/faults/fault.hpp"
 #include "engine/integrators/integrator.hpp"
 #include "engine/integrators/traits.hpp"
+#include "engine/pipeline/island_method.hpp"
 #include "engine/sleeping/sleeping.hpp"
 #include "engine/solvers/combine_rules.hpp"
 #include "engine/solvers/position_correction.hpp"
@@ -151,7 +152,7 @@ class Ledger {
         }
         const std::size_t pairs = moving * (moving - 1) / 2 + moving * fixed;
         return moving > 0 &&
-               pairs + std::min(pairs, scenario_.joints.size()) > static_cast<std::size_t>(contacts);
+               engine::countedContacts(pairs, scenario_.joints.size()) > static_cast<std::size_t>(contacts);
     }
 
     void addFriction() {

@@ -41,14 +41,17 @@ struct IslandMethod {
     Real speculativeMotion = 0;  ///< the same; at least 1 where steps lead from midpoint to midpoint
 };
 
+/// Number of contacts by which an island is large: one with a joint beside it counts twice.
+inline std::size_t countedContacts(std::size_t contacts, std::size_t joints) {
+    return contacts + std::min(contacts, joints);
+}
+
 /// The islands of a step by size, and data to pause those that take no part.
 template <class S>
 struct IslandSort {
     struct Counts {
         std::uint32_t contacts = 0, joints = 0;
         std::uint32_t large = 0;  ///< contacts that were solved as of a large island
-        /// A contact with a joint beside it counts twice.
-        std::uint32_t size() const { return contacts + std::min(contacts, joints); }
     };
     // --- by island
     std::vector<Counts> counts;

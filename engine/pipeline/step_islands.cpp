@@ -17,8 +17,8 @@ namespace rigor::engine {
 template <class S>
 void Step<S>::sortIslands() {
     // Most small worlds end here.
-    const auto most = static_cast<std::uint32_t>(def_.islandContacts);
-    if (contacts_.list().size() + std::min(contacts_.list().size(), joints_.records().size()) <= most &&
+    const auto most = static_cast<std::size_t>(def_.islandContacts);
+    if (countedContacts(contacts_.list().size(), joints_.records().size()) <= most &&
         std::find(bodies_.islands.begin(), bodies_.islands.end(), IslandSize::Large) == bodies_.islands.end())
         return;
     IslandSort<S>& sort = state_.sort;
@@ -40,7 +40,8 @@ void Step<S>::sortIslands() {
     bool any = false;
     for (std::size_t k = 0; k < islands.count(); ++k) {
         const typename IslandSort<S>::Counts& c = sort.counts[k];
-        sort.large[k] = c.size() > most || (2 * c.large > c.contacts && 2 * c.size() > most);
+        const std::size_t size = countedContacts(c.contacts, c.joints);
+        sort.large[k] = size > most || (2 * c.large > c.contacts && 2 * size > most);
         any = any || sort.large[k];
     }
     if (any) joinByForces(islands);
