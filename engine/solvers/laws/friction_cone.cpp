@@ -28,38 +28,36 @@ Eigen::Matrix<R, 2, 1> frictionCone(R k11, R k12, R k22, const Eigen::Matrix<R, 
                                     const Eigen::Matrix<R, 2, 1>& velocity, R limit) {
     using Vec2 = Eigen::Matrix<R, 2, 1>;
     if (!(limit > 0)) return Vec2::Zero();
-    const Vec2 b(velocity[0] - k11 * impulse[0] - k12 * impulse[1],
-                 velocity[1] - k12 * impulse[0] - k22 * impulse[1]);
-    const R limit2 = limit * limit;
-    const Vec2 stuck(k12 * b[1] - k22 * b[0], k12 * b[0] - k11 * b[1]);  // times the determinant
-    const R whole = k11 * k22 - k12 * k12;
-    if (stuck.squaredNorm() <= limit2 * (whole * whole)) return stuck * (R(1) / whole);
+    const R b0 = velocity[0] - k11 * impulse[0] - k12 * impulse[1];
+    const R b1 = velocity[1] - k12 * impulse[0] - k22 * impulse[1];
+    // lambda times the determinant of K + alpha I, first for alpha = 0
+    R p0 = k12 * b1 - k22 * b0, p1 = k12 * b0 - k11 * b1;
+    R determinant = k11 * k22 - k12 * k12, rim = limit * determinant, length2 = p0 * p0 + p1 * p1;
+    if (length2 <= rim * rim) return Vec2(p0, p1) * (R(1) / determinant);
     // The root where K is a multiple of the identity, and near it elsewhere: Newton's method goes from here to
     // its monotone side.
-    const R slip2 = b.squaredNorm();
-    const R mean = (k11 * b[0] * b[0] + R(2) * k12 * b[0] * b[1] + k22 * b[1] * b[1]) / slip2;
+    const R slip2 = b0 * b0 + b1 * b1;
+    const R mean = (k11 * b0 * b0 + R(2) * k12 * b0 * b1 + k22 * b1 * b1) / slip2;
     R alpha = std::max(R(0), std::sqrt(slip2) / limit - mean);
-    Vec2 lambda = Vec2::Zero();
     constexpr int kMaxNewton = 20;  // 3 suffice; the bound only ends a loop on non-finite input
     for (int i = 0; i < kMaxNewton; ++i) {
-        const R a = k11 + alpha, d = k22 + alpha, determinant = a * d - k12 * k12;
+        const R a = k11 + alpha, d = k22 + alpha;
+        determinant = a * d - k12 * k12;
+        p0 = k12 * b1 - d * b0;
+        p1 = k12 * b0 - a * b1;
+        length2 = p0 * p0 + p1 * p1;
+        rim = limit * determinant;
         // A limit too small for the precision: with alpha beyond all bounds lambda opposes b.
-        if (!std::isfinite(determinant)) return -b * (limit / b.norm());
-        const R inverse = R(1) / determinant;
-        lambda = Vec2((k12 * b[1] - d * b[0]) * inverse, (k12 * b[0] - a * b[1]) * inverse);
-        const R length2 = lambda.squaredNorm();
-        if (std::abs(length2 - limit2) <= R(8) * std::numeric_limits<R>::epsilon() * limit2) break;
-        // d|lambda|^2/d alpha = -2 lambda^T (K + alpha I)^-1 lambda
-        const R q =
-            (d * lambda[0] * lambda[0] - R(2) * k12 * lambda[0] * lambda[1] + a * lambda[1] * lambda[1]) *
-            inverse;
-        const R length = std::sqrt(length2);
-        const R next = std::max(R(0), alpha + (length2 / q) * (length - limit) / limit);
+        if (!std::isfinite(rim * rim + length2)) return Vec2(b0, b1) * (-limit / std::sqrt(slip2));
+        if (std::abs(length2 - rim * rim) <= R(8) * std::numeric_limits<R>::epsilon() * (rim * rim)) break;
+        // d|lambda|^2/d alpha = -2 lambda^T (K + alpha I)^-1 lambda = -2 q / determinant^3
+        const R q = d * p0 * p0 - R(2) * k12 * p0 * p1 + a * p1 * p1;
+        const R next = std::max(R(0), alpha + length2 * (std::sqrt(length2) - rim) / (q * limit));
         if (next == alpha || (i > 0 && !(next > alpha))) break;
         alpha = next;
     }
-    const R length = lambda.norm();
-    return length > limit ? Vec2(lambda * (limit / length)) : lambda;
+    // Rounding may leave it beyond the rim.
+    return Vec2(p0, p1) * (limit / std::max(std::sqrt(length2), rim));
 }
 template Eigen::Vector2f frictionCone(float, float, float, const Eigen::Vector2f&, const Eigen::Vector2f&,
                                       float);
