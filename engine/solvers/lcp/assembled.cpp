@@ -55,6 +55,18 @@ void AssembledProblem::assemble(const ConstraintRows<S>& rows, std::size_t bodie
     if constexpr (!OnMatrix<S>) coupleBodies(rows, bodies);
     for (std::size_t i = 0; i < n; ++i)
         if (!(W[i * n + i] > 0)) W[i * n + i] = 1;
+    findEnds();
+}
+
+void AssembledProblem::findEnds() {
+    ends_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double* entries = W.data() + i * n;
+        Ends ends{0, n};
+        while (entries[ends.end - 1] == 0) --ends.end;
+        while (entries[ends.first] == 0) ++ends.first;
+        ends_[i] = ends;
+    }
 }
 
 /// start_, entry_: rows by body, in the order of the rows; after it start_[b] is the end of body b.
@@ -155,10 +167,7 @@ void AssembledProblem::readVelocities(const ConstraintRows<S>& rows,
 }
 
 void AssembledProblem::findOffsets() {
-    for (std::size_t i = 0; i < n; ++i) {
-        q[i] = w[i];
-        for (std::size_t j = 0; j < n; ++j) q[i] -= W[i * n + j] * lambda[j];
-    }
+    for (std::size_t i = 0; i < n; ++i) q[i] = w[i] - coupled(i, lambda);
 }
 
 #define RIGOR_INSTANTIATE(S)                                                            \

@@ -57,6 +57,14 @@ class AssembledProblem {
     void findOffsets();
 
     double at(std::size_t i, std::size_t j) const { return W[i * n + j]; }
+    /// W_i lambda of row i, from its first entry to its last.
+    double coupled(std::size_t i, const std::vector<double>& impulses) const {
+        const double* entries = W.data() + i * n;
+        const std::size_t first = ends_.empty() ? 0 : ends_[i].first, end = ends_.empty() ? n : ends_[i].end;
+        double sum = 0;
+        for (std::size_t j = first; j < end; ++j) sum += entries[j] * impulses[j];
+        return sum;
+    }
     /// Velocity that a unit impulse of row i gives the row, if no other row holds it.
     double scale(std::size_t i) const { return own.empty() ? at(i, i) : own[i]; }
     /// W_ii with the damping sigma of Newton's method (ContactNewton).
@@ -65,9 +73,7 @@ class AssembledProblem {
     }
     /// w of row i under the impulses.
     double velocity(std::size_t i, const std::vector<double>& impulses) const {
-        double sum = q[i];
-        for (std::size_t j = 0; j < n; ++j) sum += W[i * n + j] * impulses[j];
-        return sum;
+        return q[i] + coupled(i, impulses);
     }
     /// The impulse of row i within the bounds that comes next to making its w zero, the others kept.
     double relaxed(std::size_t i, const std::vector<double>& impulses, double least, double most) const {
@@ -86,6 +92,13 @@ class AssembledProblem {
     template <class S>
     void coupleBodies(const ConstraintRows<S>& rows, std::size_t bodies);
 
+    void findEnds();
+
+    /// Columns of a row from its first entry to one past its last.
+    struct Ends {
+        std::size_t first = 0, end = 0;
+    };
+    std::vector<Ends> ends_;                    ///< columns of each row; empty: not known
     std::vector<std::uint32_t> start_, entry_;  ///< rows by body; entry = 2 row + side
     std::vector<double> invMass_;               ///< inverse mass of each body
 };

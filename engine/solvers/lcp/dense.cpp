@@ -15,29 +15,43 @@ double* DenseLu::reset(std::size_t n) {
     if (swap_.size() < n) {
         swap_.resize(n);
         scale_.resize(n);
+        first_.resize(n);
         end_.resize(n);
+        below_.resize(n);
     }
     return a_.data();
 }
 
+/// Finds where the rows begin and end, and the largest entry of each column.
+void DenseLu::measure() {
+    std::fill_n(scale_.begin(), n_, 0.0);
+    std::fill_n(below_.begin(), n_, std::size_t(0));
+    for (std::size_t i = 0; i < n_; ++i) {
+        const double* entries = a_.data() + i * n_;
+        std::size_t first = 0, end = n_;
+        while (end > 0 && entries[end - 1] == 0) --end;
+        while (first < end && entries[first] == 0) ++first;
+        first_[i] = first;
+        end_[i] = end;
+        for (std::size_t j = first; j < end; ++j) scale_[j] = std::max(scale_[j], std::abs(entries[j]));
+        if (first < n_) below_[first] = i + 1;
+    }
+    for (std::size_t k = 1; k < n_; ++k) below_[k] = std::max(below_[k], below_[k - 1]);
+}
+
 bool DenseLu::factor() {
     constexpr double kSingular = 1e-14;  // some 50 roundings
+    measure();
     bool regular = true;
     const auto row = [this](std::size_t i) { return a_.data() + i * n_; };
-    std::fill_n(scale_.begin(), n_, 0.0);
-    for (std::size_t i = 0; i < n_; ++i) {
-        const double* entries = row(i);
-        for (std::size_t j = 0; j < n_; ++j) scale_[j] = std::max(scale_[j], std::abs(entries[j]));
-        end_[i] = n_;
-        while (end_[i] > 0 && entries[end_[i] - 1] == 0) --end_[i];
-    }
     for (std::size_t k = 0; k < n_; ++k) {
         std::size_t p = k;
-        for (std::size_t i = k + 1; i < n_; ++i)
+        for (std::size_t i = k + 1; i < below_[k]; ++i)
             if (std::abs(row(i)[k]) > std::abs(row(p)[k])) p = i;
         swap_[k] = p;
         if (p != k) {
             std::swap_ranges(row(k), row(k) + n_, row(p));
+            std::swap(first_[k], first_[p]);
             std::swap(end_[k], end_[p]);
         }
         const double pivot = row(k)[k];
@@ -46,7 +60,7 @@ bool DenseLu::factor() {
             row(k)[k] = 0;
             continue;
         }
-        eliminateColumn({a_.data(), n_, end_.data()}, k);
+        eliminateColumn({a_.data(), n_, below_[k], end_.data()}, k);
     }
     return regular;
 }
@@ -56,7 +70,7 @@ void DenseLu::solve(double* b) const {
     for (std::size_t i = 1; i < n_; ++i) {
         const double* row = a_.data() + i * n_;
         double sum = b[i];
-        for (std::size_t j = 0; j < i; ++j)
+        for (std::size_t j = first_[i]; j < i; ++j)
             if (a_[j * n_ + j] != 0) sum -= row[j] * b[j];
         b[i] = sum;
     }

@@ -11,9 +11,9 @@
 
 namespace rigor::engine {
 
-/// LU with partial pivoting of an n x n matrix, row by row in memory [GolubVanLoan2013, section 3.4]. Zeros to the
-/// right of the last entry of a row cost nothing: a matrix whose entries are near the diagonal takes n times the
-/// square of its band width.
+/// LU with partial pivoting of an n x n matrix, row by row in memory [GolubVanLoan2013, section 3.4]. Zeros
+/// before the first entry of a row and behind its last cost nothing: a matrix whose entries are near the diagonal takes n
+/// times the square of its band width.
 class DenseLu {
   public:
     /// Makes room for n x n and returns the first entry, to be filled before factor().
@@ -25,10 +25,16 @@ class DenseLu {
     void solve(double* b) const;
 
   private:
+    void measure();
+
     std::size_t n_ = 0;
     std::vector<double> a_;
     std::vector<std::size_t> swap_;
-    std::vector<std::size_t> end_;  ///< one past the last column of each row that is not zero
+    // --- by row
+    std::vector<std::size_t> first_;  ///< its first column that is not zero
+    std::vector<std::size_t> end_;    ///< one past the last
+    /// One past the last row that has an entry in a column or in one before it.
+    std::vector<std::size_t> below_;
     std::vector<double> scale_;
 };
 

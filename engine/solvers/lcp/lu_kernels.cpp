@@ -30,7 +30,7 @@ void eliminateBelow(const LuRows& rows, std::size_t k) {
     const double* const pivotRow = rows.at + k * rows.n;
     const double pivot = pivotRow[k];
     const std::size_t end = rows.end[k];
-    for (std::size_t i = k + 1; i < rows.n; ++i) {
+    for (std::size_t i = k + 1; i < rows.below; ++i) {
         double* const row = rows.at + i * rows.n;
         if (row[k] == 0) continue;
         const double factor = row[k] / pivot;

@@ -9,10 +9,12 @@
 
 namespace rigor::engine {
 
-/// A row-major matrix that is n wide, and of each row one past its last column that is not zero.
+/// A row-major matrix that is n wide, one past the last row to change, and of each row one past its last column that is not
+/// zero.
 struct LuRows {
     double* at = nullptr;
     std::size_t n = 0;
+    std::size_t below = 0;
     std::size_t* end = nullptr;
 };
 

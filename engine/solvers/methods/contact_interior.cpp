@@ -50,13 +50,6 @@ double stepInCone(const double* x, const double* d, double most) {
     return step;
 }
 
-double velocity(const AssembledProblem& p, const std::vector<double>& lambda, std::size_t i) {
-    double w = p.q[i];
-    const double* W = p.W.data() + i * p.n;
-    for (std::size_t j = 0; j < p.n; ++j) w += W[j] * lambda[j];
-    return w;
-}
-
 }  // namespace
 
 bool ContactInterior::fits(const AssembledProblem& problem) {
@@ -111,7 +104,7 @@ void ContactInterior::begin(const AssembledProblem& p, double shift) {
     const bool cold = !(shift < 1);
     if (!cold) {
         size *= shift;
-        for (std::size_t i = 0; i < n; ++i) w_[i] = velocity(p, lambda_, i);
+        for (std::size_t i = 0; i < n; ++i) w_[i] = p.velocity(i, lambda_);
     }
     for (std::size_t i = 0; i < n; ++i)
         if (p.kind[i] == RowKind::Bounded) addBounds(p, i, p.lower[i], p.upper[i], size, cold);
@@ -181,7 +174,7 @@ double ContactInterior::gap() const {
 void ContactInterior::evaluate(const AssembledProblem& p) {
     distance_ = 0;
     for (std::size_t i = 0; i < p.n; ++i) {
-        w_[i] = velocity(p, lambda_, i);
+        w_[i] = p.velocity(i, lambda_);
         right_[i] = pinned_[i] ? 0.0 : -w_[i];
     }
     for (const Bound& bound : bounds_) right_[bound.row] += bound.sign * bound.z;

@@ -15,13 +15,11 @@ bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<do
     next.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         const double* W = p.W.data() + i * n;
-        double w = p.q[i];
-        for (std::size_t j = 0; j < n; ++j) w += W[j] * p.lambda[j];
-        w_[i] = w;
+        w_[i] = p.velocity(i, p.lambda);
         // The row is set as if w = 0 were its equation, and changed below if it is not.
         std::copy_n(W, n, A + i * n);
         A[i * n + i] = p.damped(i, sigma);
-        right_[i] = -w;
+        right_[i] = -w_[i];
     }
     const auto pin = [&](std::size_t i, double value) {
         std::fill_n(A + i * n, n, 0.0);
