@@ -6,17 +6,18 @@
 // [Catto2005], [Catto2009]. Differences:
 //   - the contacts between two bodies are a group that is swept until it is nearly solved before the next one
 //     is solved (contact_group.hpp): a box then meets its neighbours without the rotation that solving its corners one
-//     by one would leave it with, which is what makes tall stacks rock;
+//     by one would leave it with, which is what makes tall stacks rock. In larger parts that an impact goes through,
+//     groups are swept once until the part is nearly solved: more sweeps of a group there cost more than they bring;
 //   - iterations go forwards and backwards in turn, so that weight travels down a stack as fast as up, and two of
 //     them are a step of conjugate gradients (conjugate_sweeps.hpp) where there are contacts alone;
 //   - connected joints are a group too, whose equality blocks are solved at once (joint_group.hpp); the normal goes
 //     before the tangents, so that friction has this sweep's limit;
 //   - parts of the problem that share no body (independent_parts.hpp) are swept until each of them is solved;
 //     what becomes of a part does not depend on the others;
-//   - Newton's method (newton_finish.hpp), with friction on the exact cone, solves what the iterations allowed, at
-//     least kFinishIterations, leave of a part: of a small one in any case, of a larger one if its matrix is narrow
-//     (elimination_order.hpp) and its contacts are sorted. Parts of few contacts, and of few contacts and limits of many
-//     joints (free_rows.hpp), it solves sooner. Heavy boxes on light ones, and stacks, are then solved to rounding;
+//   - Newton's method (part_finish.hpp), with friction on the exact cone, solves what the iterations allowed, at
+//     least kFinishIterations, leave of small parts, and of larger ones that are narrow. Parts of few contacts, and of few
+//     contacts and limits of many joints (free_rows.hpp), it solves sooner. Heavy boxes on light ones, and stacks, are
+//     then solved to rounding;
 //   - sweeps give up on parts with joints that they hardly bring nearer.
 //
 // Cost: the sum over all parts of iterations * rows * (1..kInnerSweeps). Known limits: contacts converge
@@ -25,13 +26,12 @@
 #include <limits>
 #include <utility>
 
-#include "engine/solvers/elimination_order.hpp"
 #include "engine/solvers/independent_parts.hpp"
 #include "engine/solvers/joint_loops.hpp"
 #include "engine/solvers/joints/joint_group.hpp"
 #include "engine/solvers/methods/conjugate_sweeps.hpp"
 #include "engine/solvers/methods/contact_group.hpp"
-#include "engine/solvers/methods/newton_finish.hpp"
+#include "engine/solvers/methods/part_finish.hpp"
 #include "engine/solvers/natural_map.hpp"
 #include "engine/solvers/sequential_impulses.hpp"
 #include "engine/solvers/traits.hpp"
@@ -54,6 +54,7 @@ class BlockGaussSeidel final : public Solver<S> {
         findGroups(input.constraints.blocks);
         parts_.find<S>(input.constraints.blocks, groups_, input.velocities.size());
         findLoops(input);
+        findLarge(input);
         contacts_.begin(input.constraints, groups_);
         orderGroups(input);
         iterate(input);
@@ -67,6 +68,8 @@ class BlockGaussSeidel final : public Solver<S> {
     void iterate(const SolverInput<S>& input) {
         solved_.assign(parts_.count(), 0);
         stalled_.assign(parts_.count(), 0);
+        impact_.resize(parts_.count());
+        far_.assign(parts_.count(), 0);
         before_.assign(parts_.count(), std::numeric_limits<Real>::max());
         last_.assign(parts_.count(), std::numeric_limits<Real>::max());
         found_.resize(groups_.size());
@@ -80,6 +83,7 @@ class BlockGaussSeidel final : public Solver<S> {
                 return found_[group] = solved ? Real(0) : solveGroup(input, group);
             });
             if (input.monitor.after(input.velocities, change)) break;
+            if (i == 0) findImpacts(input);
             if (markSolved(input)) break;
             if ((i + 1) % kStallIterations == 0) giveUpStalled(input);
             if (i + 1 == kEarlyIterations) finishEarly(input);
@@ -94,28 +98,12 @@ class BlockGaussSeidel final : public Solver<S> {
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             if (solved_[part]) continue;
             collectBlocks(input.constraints.blocks, part, std::numeric_limits<std::size_t>::max());
-            if (!hasJoints(input)) use(part);
+            if (!rowsOf(input).ofJoints) use(part);
         }
     }
 
-    /// Rows of the blocks in blocks_ but the equality rows of joints.
-    std::size_t rowsBesideEqualities(const SolverInput<S>& input) const {
-        std::size_t rows = 0;
-        for (const std::uint32_t k : blocks_)
-            if (input.constraints.blocks[k].kind != BlockKind::Joint)
-                rows += input.constraints.blocks[k].rows;
-        return rows;
-    }
-
-    bool hasJoints(const SolverInput<S>& input) const {
-        return std::any_of(blocks_.begin(), blocks_.end(),
-                           [&](std::uint32_t k) { return isJoint(input.constraints.blocks[k]); });
-    }
-
-    /// The blocks in blocks_ are joints and what presses beside their equality rows: contacts, limits, motors.
-    bool mixesJoints(const SolverInput<S>& input) const {
-        return hasJoints(input) && rowsBesideEqualities(input) > 0;
-    }
+    /// Rows of the blocks in blocks_.
+    PartRows rowsOf(const SolverInput<S>& input) const { return partRows(input.constraints.blocks, blocks_); }
 
     /// Renews the biases of parts that are not solved yet.
     void renewBiases(const SolverInput<S>& input, int iteration) {
@@ -139,9 +127,17 @@ class BlockGaussSeidel final : public Solver<S> {
                 change < tolerance || (tolerance > 0 && mayBeRounding(change) &&
                                        change < resolution(input, part, change > Real(0.5) * last_[part]));
             last_[part] = change;
+            far_[part] = impact_[part] != 0 && change > kFar * tolerance;
             all = all && solved_[part] != 0;
         }
         return all;
+    }
+
+    /// Large parts whose first sweep had to change velocities by more than gravity makes in a step.
+    void findImpacts(const SolverInput<S>& input) {
+        const Real tolerance = input.monitor.tolerance();
+        for (std::size_t part = 0; part < parts_.count(); ++part)
+            impact_[part] = large_[part] != 0 && tolerance > 0 && changeOf(part) > kImpact * tolerance;
     }
 
     /// Sweeps end, too, over parts with joints that they hardly bring nearer. Friction that sticks may have to grow
@@ -151,7 +147,7 @@ class BlockGaussSeidel final : public Solver<S> {
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             if (solved_[part]) continue;
             collectBlocks(input.constraints.blocks, part, std::numeric_limits<std::size_t>::max());
-            if (!mixesJoints(input)) continue;
+            if (!rowsOf(input).mixesJoints()) continue;
             const Real change = changeOf(part);
             if (change > kStalled * before_[part]) solved_[part] = stalled_[part] = 1;
             before_[part] = change;
@@ -197,14 +193,13 @@ class BlockGaussSeidel final : public Solver<S> {
         bool renewed = false;
         Real worst = -1;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
-            if (!collectBlocks(input.constraints.blocks, part, kFinishRows)) continue;
-            if (!kShortensJoints && mixesJoints(input)) continue;
+            if (!collectBlocks(input.constraints.blocks, part, PartFinish<S>::kMostRows)) continue;
+            if (!kShortensJoints && rowsOf(input).mixesJoints()) continue;
             if (!std::exchange(renewed, true)) input.monitor.before(input.velocities);
-            const Residual left = residualOf(input);
+            const auto left = PartFinish<S>::residualOf(input, blocks_);
             if (left.found <= left.goal) continue;
-            orderBlocks(input);
-            if (!isWorthFinishing(input, part, left)) continue;
-            const Real reached = finishPart(input, left);
+            if (!finish_.isWorthwhile(input, blocks_, left, !solved_[part] || stalled_[part])) continue;
+            const Real reached = finish_.solve(input, blocks_, left);
             if (reached < left.found) worst = std::max(worst, reached);
         }
         if (worst >= 0) input.monitor.after(input.velocities, worst);
@@ -215,14 +210,16 @@ class BlockGaussSeidel final : public Solver<S> {
     void finishEarly(const SolverInput<S>& input) {
         if (!mayFinish(input)) return;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
-            if (solved_[part] || !collectBlocks(input.constraints.blocks, part, kFinishRows)) continue;
-            const std::size_t rows = rowsBesideEqualities(input);
-            if (rows == 0 || rows > kEarlyRows || (!kShortensJoints && hasJoints(input))) continue;
+            if (solved_[part] || !collectBlocks(input.constraints.blocks, part, PartFinish<S>::kMostRows))
+                continue;
+            const PartRows rows = rowsOf(input);
+            if (rows.besideEqualities == 0 || rows.besideEqualities > PartFinish<S>::kFewRows) continue;
+            if (!kShortensJoints && rows.ofJoints) continue;
             input.monitor.before(input.velocities, blocks_);
-            const Residual left = residualOf(input);
+            const auto left = PartFinish<S>::residualOf(input, blocks_);
             if (left.found > left.goal) {
-                orderBlocks(input);
-                solved_[part] = finishPart(input, left) <= left.goal;
+                finish_.putInOrder(input, blocks_);
+                solved_[part] = finish_.solve(input, blocks_, left) <= left.goal;
             } else {
                 solved_[part] = 1;
             }
@@ -232,22 +229,6 @@ class BlockGaussSeidel final : public Solver<S> {
     static bool mayFinish(const SolverInput<S>& input) {
         return input.monitor.tolerance() > 0 && input.iterations >= kFinishIterations &&
                input.friction == &frictionCone<Real>;
-    }
-
-    /// Natural map of the blocks of a part [m/s], and where it is small enough.
-    struct Residual {
-        Real found = 0, goal = 0;
-    };
-    Residual residualOf(const SolverInput<S>& input) const {
-        Residual residual{0, input.monitor.tolerance()};
-        for (const std::uint32_t k : blocks_) {
-            const Block<S>& block = input.constraints.blocks[k];
-            const Real found = blockResidual<S>(input.constraints, block, input.velocities);
-            if (!(found <= residual.found)) residual.found = found;
-            residual.goal =
-                std::max(residual.goal, blockResolution<S>(input.constraints, block, input.velocities));
-        }
-        return residual;
     }
 
     /// The blocks of a part. False: it has more rows than `most`.
@@ -261,30 +242,6 @@ class BlockGaussSeidel final : public Solver<S> {
                 blocks_.push_back(k);
             }
         return true;
-    }
-
-    /// Orders the blocks of a part for elimination.
-    void orderBlocks(const SolverInput<S>& input) {
-        order_.apply<S>(input.constraints.blocks, input.velocities.size(), blocks_);
-    }
-
-    /// Newton's method takes small parts whatever is left of them, and larger ones that sweeps have not solved, but
-    /// sorted into open, sticking and sliding contacts.
-    bool isWorthFinishing(const SolverInput<S>& input, std::size_t part, const Residual& left) const {
-        std::size_t rows = 0;
-        for (const std::uint32_t k : blocks_) rows += input.constraints.blocks[k].rows;
-        if (rows <= kSmallRows) return true;
-        return (!solved_[part] || stalled_[part]) && order_.cost() < kFinishCost &&
-               left.found < kSorted * input.monitor.tolerance();
-    }
-
-    /// Returns the residual reached.
-    Real finishPart(const SolverInput<S>& input, const Residual& left) {
-        newton_.forget();
-        problem_.load(input, blocks_);
-        const Real reached = newton_.attempt(problem_.input(), left.found, left.goal, kFinishSteps);
-        problem_.store();
-        return reached;
     }
 
     /// Consecutive contact blocks between the same two bodies form a group; so do connected joints.
@@ -309,6 +266,12 @@ class BlockGaussSeidel final : public Solver<S> {
         });
     }
 
+    void findLarge(const SolverInput<S>& input) {
+        large_.resize(parts_.count());
+        for (std::size_t part = 0; part < parts_.count(); ++part)
+            large_[part] = !collectBlocks(input.constraints.blocks, part, PartFinish<S>::kFewRows);
+    }
+
     void orderGroups(const SolverInput<S>& input) {
         constexpr std::size_t kGrain = 8;  // a group takes some 2 us, handing out a part 0.3 us
         sweeps_.begin(*tasks_, input.velocities.size(), kGrain);
@@ -323,7 +286,7 @@ class BlockGaussSeidel final : public Solver<S> {
         if (isJoint(input.constraints.blocks[first]))
             return joints_.solveUnit(joints_.unitOf(first), input.constraints, input.velocities);
         const Real found = sweepOnce(input, first, last);
-        if (last - first == 1) return found;
+        if (last - first == 1 || far_[parts_.partOf(group)] != 0) return found;
         const Real enough = std::max({kInnerFloor * input.monitor.tolerance(),
                                       std::numeric_limits<Real>::epsilon(), kInnerTolerance * found});
         if (found <= enough) return found;
@@ -358,18 +321,15 @@ class BlockGaussSeidel final : public Solver<S> {
     static constexpr bool kShortensJoints = sizeof(Real) > sizeof(float);
     static constexpr int kPlainSweeps =
         2;  ///< before conjugate gradients: most parts of scenes at rest need no more
-    static constexpr int kEarlyIterations = 6;  ///< sweeps before Newton's method takes the smallest parts,
-    static constexpr std::size_t kEarlyRows = 48;  ///< the most rows of these
+    static constexpr int kEarlyIterations = 6;  ///< sweeps before Newton's method takes the smallest parts
     /// Even, since sweeps forwards and backwards leave other residuals.
     static constexpr int kStallIterations = 10;
     static constexpr Real kStalled =
         Real(0.8);  ///< fraction of the residual that so many sweeps leave at most
     static constexpr int kFinishIterations = 30;  ///< fewer than that are too few to sort contacts by
-    static constexpr int kFinishSteps = 12;
-    static constexpr std::size_t kSmallRows = 128;  ///< n^3 / 3 is then less than a millisecond
-    static constexpr std::size_t kFinishRows = 512;
-    static constexpr double kFinishCost = 2e6;           ///< multiplications of a step: about a millisecond
-    static constexpr Real kSorted = Real(1e4);           ///< multiple of the tolerance: contacts are sorted
+    /// Multiple of the tolerance: faster than what gravity does in a step to stacks that nothing holds yet.
+    static constexpr Real kImpact = Real(2e6);
+    static constexpr Real kFar = Real(1e5);              ///< multiple of the tolerance: far from solved
     static constexpr int kInnerSweeps = 5;               ///< maximum number of sweeps per solve of a group
     static constexpr Real kInnerTolerance = Real(0.03);  ///< relative to the first sweep's residual
     static constexpr Real kInnerFloor =
@@ -379,19 +339,20 @@ class BlockGaussSeidel final : public Solver<S> {
     IndependentParts parts_;
     std::vector<std::uint8_t> solved_;   ///< flag of each part
     std::vector<std::uint8_t> stalled_;  ///< parts that count as solved without being it
+    std::vector<std::uint8_t> large_;    ///< parts of more than PartFinish::kFewRows rows
+    std::vector<std::uint8_t> impact_;   ///< large parts that an impact goes through
+    std::vector<std::uint8_t> far_;      ///< impacts that are far from solved
     std::vector<Real> before_;           ///< residual of each part kStallIterations ago
     std::vector<Real> last_;             ///< residual of each part before its last sweep
     JointLoops loops_;
     std::vector<std::uint8_t> looped_;   ///< parts with closed loops of joints
     std::vector<Real> found_;            ///< residual of each group before its last solve
     std::vector<std::uint32_t> blocks_;  ///< blocks of a part
-    PartProblem<S> problem_;
-    EliminationOrder order_;
     SweepOrder sweeps_;
     ContactGroups<S> contacts_;
     ConjugateSweeps<S> conjugate_;
     JointGroup<S> joints_;
-    NewtonFinish<S> newton_;
+    PartFinish<S> finish_;
 };
 
 }  // namespace

@@ -52,18 +52,21 @@ typename S::Real NewtonFinish<S>::attempt(const SolverInput<S>& input, Real resi
     best_.save(input);
     Real best = residual;
     double damping = kLeastDamping;
-    int astray = 0;
-    for (int step = 0; step < steps && best > goal; ++step) {
+    int astray = 0, fruitless = 0;
+    for (int step = 0; step < steps && best > goal && fruitless <= kMostFruitless; ++step) {
         problem_.readVelocities<S>(input.constraints, input.velocities);
         if (!eliminated_) problem_.findOffsets();
         Real reached = std::numeric_limits<Real>::infinity();
         if (takeNewtonStep(damping) && !runsAway()) reached = take(input, target_);
         if (reached < best) {
             best = reached;
-            astray = 0;
+            astray = fruitless = 0;
             best_.save(input);
             damping = std::max(kLeastDamping, 1e-2 * damping);
-        } else if (!(reached < kLost * best) || ++astray > 2) {
+            continue;
+        }
+        ++fruitless;
+        if (!(reached < kLost * best) || ++astray > 2) {
             best_.restore(input);
             input.monitor.before(input.velocities);
             damping *= 100;
