@@ -68,6 +68,7 @@ class BlockGaussSeidel final : public Solver<S> {
     void iterate(const SolverInput<S>& input) {
         solved_.assign(parts_.count(), 0);
         stalled_.assign(parts_.count(), 0);
+        ended_.assign(parts_.count(), 0);
         impact_.resize(parts_.count());
         far_.assign(parts_.count(), 0);
         before_.assign(parts_.count(), std::numeric_limits<Real>::max());
@@ -193,6 +194,7 @@ class BlockGaussSeidel final : public Solver<S> {
         bool renewed = false;
         Real worst = -1;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
+            if (ended_[part]) continue;
             if (!collectBlocks(input.constraints.blocks, part, PartFinish<S>::kMostRows)) continue;
             if (!kShortensJoints && rowsOf(input).mixesJoints()) continue;
             if (!std::exchange(renewed, true)) input.monitor.before(input.velocities);
@@ -219,11 +221,20 @@ class BlockGaussSeidel final : public Solver<S> {
             const auto left = PartFinish<S>::residualOf(input, blocks_);
             if (left.found > left.goal) {
                 finish_.putInOrder(input, blocks_);
-                solved_[part] = finish_.solve(input, blocks_, left) <= left.goal;
+                const Real reached = finish_.solve(input, blocks_, left);
+                solved_[part] = reached <= left.goal;
+                endLoops(input, part, reached);
             } else {
                 solved_[part] = 1;
             }
         }
+    }
+
+    /// Rows of closed loops may contradict each other by more than the tolerance. What Newton's method then leaves of such
+    /// a part, sweeps hardly bring nearer, nor does a second attempt.
+    void endLoops(const SolverInput<S>& input, std::size_t part, Real reached) {
+        if (looped_[part] && reached < kLoopsEnd * input.monitor.tolerance())
+            solved_[part] = ended_[part] = 1;
     }
 
     static bool mayFinish(const SolverInput<S>& input) {
@@ -326,6 +337,7 @@ class BlockGaussSeidel final : public Solver<S> {
     static constexpr int kStallIterations = 10;
     static constexpr Real kStalled =
         Real(0.8);  ///< fraction of the residual that so many sweeps leave at most
+    static constexpr Real kLoopsEnd = Real(1e3);  ///< multiple of the tolerance
     static constexpr int kFinishIterations = 30;  ///< fewer than that are too few to sort contacts by
     /// Multiple of the tolerance: faster than what gravity does in a step to stacks that nothing holds yet.
     static constexpr Real kImpact = Real(2e6);
@@ -339,11 +351,12 @@ class BlockGaussSeidel final : public Solver<S> {
     IndependentParts parts_;
     std::vector<std::uint8_t> solved_;   ///< flag of each part
     std::vector<std::uint8_t> stalled_;  ///< parts that count as solved without being it
-    std::vector<std::uint8_t> large_;    ///< parts of more than PartFinish::kFewRows rows
-    std::vector<std::uint8_t> impact_;   ///< large parts that an impact goes through
-    std::vector<std::uint8_t> far_;      ///< impacts that are far from solved
-    std::vector<Real> before_;           ///< residual of each part kStallIterations ago
-    std::vector<Real> last_;             ///< residual of each part before its last sweep
+    std::vector<std::uint8_t> ended_;   ///< parts with loops that Newton's method has taken as far as it goes
+    std::vector<std::uint8_t> large_;   ///< parts of more than PartFinish::kFewRows rows
+    std::vector<std::uint8_t> impact_;  ///< large parts that an impact goes through
+    std::vector<std::uint8_t> far_;     ///< impacts that are far from solved
+    std::vector<Real> before_;          ///< residual of each part kStallIterations ago
+    std::vector<Real> last_;            ///< residual of each part before its last sweep
     JointLoops loops_;
     std::vector<std::uint8_t> looped_;   ///< parts with closed loops of joints
     std::vector<Real> found_;            ///< residual of each group before its last solve
