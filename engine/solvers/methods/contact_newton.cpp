@@ -21,7 +21,11 @@ bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<do
         A[i * n + i] = p.damped(i, sigma);
         right_[i] = -w_[i];
     }
+    // Elimination mixes the rows: by its solution, open contacts would have impulses of the size of rounding.
+    pinned_.assign(n, 0);
     const auto pin = [&](std::size_t i, double value) {
+        pinned_[i] = 1;
+        next[i] = value;
         std::fill_n(A + i * n, n, 0.0);
         A[i * n + i] = 1;
         right_[i] = value - p.lambda[i];
@@ -44,7 +48,7 @@ bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<do
     if (!lu_.factor()) return false;
     lu_.solve(right_.data());
     for (std::size_t i = 0; i < n; ++i) {
-        next[i] = p.lambda[i] + right_[i];
+        if (!pinned_[i]) next[i] = p.lambda[i] + right_[i];
         if (!std::isfinite(next[i])) return false;
     }
     return true;

@@ -17,6 +17,7 @@
 // away; the caller checks what a step has brought.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/solvers/lcp/assembled.hpp"
@@ -34,6 +35,7 @@ class ContactNewton {
 
     DenseLu lu_;
     std::vector<double> w_, right_;
+    std::vector<std::uint8_t> pinned_;  ///< 1 for rows that are at a bound after the step
 };
 
 }  // namespace rigor::engine

@@ -77,6 +77,27 @@ TEST(FreeRows, SolvedProblemsAreThoseOfAllRows) {
     EXPECT_GT(held, 20) << "rows at their bounds";
 }
 
+/// Impulses that rounding leaves in open contacts count as contact.
+TEST(ContactNewton, RowsAtTheirBoundsAreThereExactly) {
+    int held = 0;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        AssembledProblem p = randomProblem(18, 30, seed);
+        ContactNewton newton;
+        std::vector<double> next;
+        for (int step = 0; step < 20; ++step) {
+            ASSERT_TRUE(newton.step(p, 1e-12, next));
+            p.lambda = next;
+            for (std::size_t i = 0; i < p.n; ++i) {
+                const double bound = p.lambda[i] < 0 ? p.lower[i] : p.upper[i];
+                if (!(std::abs(p.lambda[i] - bound) < 1e-9)) continue;
+                EXPECT_EQ(p.lambda[i], bound) << seed << ": row " << i;
+                ++held;
+            }
+        }
+    }
+    EXPECT_GT(held, 400) << "rows at their bounds";
+}
+
 /// 18 rows with 8 directions of motion: the 12 free ones contradict each other.
 TEST(FreeRows, ContradictionsTakeNoImpulse) {
     for (unsigned seed = 0; seed < 20; ++seed) {
