@@ -75,7 +75,7 @@ TYPED_TEST(Worlds, SteadyStepDoesNotAllocate) {
             WorldDef<S> def = earth<S>();
             *choiceOf(def, family.name) = choice.name;
             World<S> world = busyWorld<S>(def);
-            for (int i = 0; i < 300; ++i) world.step(typename S::Real(1.0 / 60));
+            for (int i = 0; i < 400; ++i) world.step(typename S::Real(1.0 / 60));
             const long before = allocationCount();
             for (int i = 0; i < 50; ++i) world.step(typename S::Real(1.0 / 60));
             EXPECT_EQ(allocationCount() - before, 0) << choice.name;

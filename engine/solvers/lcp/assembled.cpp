@@ -167,7 +167,7 @@ void AssembledProblem::readVelocities(const ConstraintRows<S>& rows,
 }
 
 void AssembledProblem::findOffsets() {
-    for (std::size_t i = 0; i < n; ++i) q[i] = w[i] - coupled(i, lambda);
+    for (std::size_t i = 0; i < n; ++i) q[i] = -addCoupled(-w[i], i, lambda);
 }
 
 #define RIGOR_INSTANTIATE(S)                                                            \

@@ -57,11 +57,10 @@ class AssembledProblem {
     void findOffsets();
 
     double at(std::size_t i, std::size_t j) const { return W[i * n + j]; }
-    /// W_i lambda of row i, from its first entry to its last.
-    double coupled(std::size_t i, const std::vector<double>& impulses) const {
+    /// `sum` and W_i lambda of row i, from its first entry to its last.
+    double addCoupled(double sum, std::size_t i, const std::vector<double>& impulses) const {
         const double* entries = W.data() + i * n;
         const std::size_t first = ends_.empty() ? 0 : ends_[i].first, end = ends_.empty() ? n : ends_[i].end;
-        double sum = 0;
         for (std::size_t j = first; j < end; ++j) sum += entries[j] * impulses[j];
         return sum;
     }
@@ -73,7 +72,7 @@ class AssembledProblem {
     }
     /// w of row i under the impulses.
     double velocity(std::size_t i, const std::vector<double>& impulses) const {
-        return q[i] + coupled(i, impulses);
+        return addCoupled(q[i], i, impulses);
     }
     /// The impulse of row i within the bounds that comes next to making its w zero, the others kept.
     double relaxed(std::size_t i, const std::vector<double>& impulses, double least, double most) const {

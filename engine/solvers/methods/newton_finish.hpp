@@ -48,9 +48,8 @@ class NewtonFinish {
 
     static constexpr int kInteriorStarts = 6;
     static constexpr Real kLost = Real(100);  ///< residual over the best from which there is no way back
-    static constexpr int kMostFruitless =
-        6;  ///< steps in a row that come no nearer; hardly an attempt that makes more
-            ///< of them ends well
+    /// Steps in a row that come no nearer. Hardly an attempt that makes more of them ends well.
+    static constexpr int kMostFruitless = 6;
     static constexpr double kLeastDamping = 1e-10, kMostDamping = 1e-2;  ///< ContactNewton's sigma
     AssembledProblem problem_;
     ContactNewton newton_;
