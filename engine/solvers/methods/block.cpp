@@ -54,7 +54,6 @@ class BlockGaussSeidel final : public Solver<S> {
         findGroups(input.constraints.blocks);
         parts_.find<S>(input.constraints.blocks, groups_, input.velocities.size());
         findLoops(input);
-        findLarge(input);
         contacts_.begin(input.constraints, groups_);
         orderGroups(input);
         iterate(input);
@@ -69,8 +68,7 @@ class BlockGaussSeidel final : public Solver<S> {
         solved_.assign(parts_.count(), 0);
         stalled_.assign(parts_.count(), 0);
         ended_.assign(parts_.count(), 0);
-        impact_.resize(parts_.count());
-        far_.assign(parts_.count(), 0);
+        impact_.assign(parts_.count(), 0);
         before_.assign(parts_.count(), std::numeric_limits<Real>::max());
         last_.assign(parts_.count(), std::numeric_limits<Real>::max());
         found_.resize(groups_.size());
@@ -128,17 +126,22 @@ class BlockGaussSeidel final : public Solver<S> {
                 change < tolerance || (tolerance > 0 && mayBeRounding(change) &&
                                        change < resolution(input, part, change > Real(0.5) * last_[part]));
             last_[part] = change;
-            far_[part] = impact_[part] != 0 && change > kFar * tolerance;
             all = all && solved_[part] != 0;
         }
         return all;
     }
 
-    /// Large parts whose first sweep had to change velocities by more than gravity makes in a step.
+    /// Parts of more than a few rows whose first sweep had to change velocities by more than gravity makes in a step.
     void findImpacts(const SolverInput<S>& input) {
-        const Real tolerance = input.monitor.tolerance();
+        const Real most = kImpact * input.monitor.tolerance();
         for (std::size_t part = 0; part < parts_.count(); ++part)
-            impact_[part] = large_[part] != 0 && tolerance > 0 && changeOf(part) > kImpact * tolerance;
+            impact_[part] = most > 0 && changeOf(part) > most &&
+                            !collectBlocks(input.constraints.blocks, part, PartFinish<S>::kFewRows);
+    }
+
+    /// An impact goes through the part, and the last sweep did not leave it nearly solved.
+    bool isFar(const SolverInput<S>& input, std::size_t part) const {
+        return impact_[part] != 0 && last_[part] > kFar * input.monitor.tolerance();
     }
 
     /// Sweeps end, too, over parts with joints that they hardly bring nearer. Friction that sticks may have to grow
@@ -277,12 +280,6 @@ class BlockGaussSeidel final : public Solver<S> {
         });
     }
 
-    void findLarge(const SolverInput<S>& input) {
-        large_.resize(parts_.count());
-        for (std::size_t part = 0; part < parts_.count(); ++part)
-            large_[part] = !collectBlocks(input.constraints.blocks, part, PartFinish<S>::kFewRows);
-    }
-
     void orderGroups(const SolverInput<S>& input) {
         constexpr std::size_t kGrain = 8;  // a group takes some 2 us, handing out a part 0.3 us
         sweeps_.begin(*tasks_, input.velocities.size(), kGrain);
@@ -297,7 +294,7 @@ class BlockGaussSeidel final : public Solver<S> {
         if (isJoint(input.constraints.blocks[first]))
             return joints_.solveUnit(joints_.unitOf(first), input.constraints, input.velocities);
         const Real found = sweepOnce(input, first, last);
-        if (last - first == 1 || far_[parts_.partOf(group)] != 0) return found;
+        if (last - first == 1 || isFar(input, parts_.partOf(group))) return found;
         const Real enough = std::max({kInnerFloor * input.monitor.tolerance(),
                                       std::numeric_limits<Real>::epsilon(), kInnerTolerance * found});
         if (found <= enough) return found;
@@ -352,9 +349,7 @@ class BlockGaussSeidel final : public Solver<S> {
     std::vector<std::uint8_t> solved_;   ///< flag of each part
     std::vector<std::uint8_t> stalled_;  ///< parts that count as solved without being it
     std::vector<std::uint8_t> ended_;   ///< parts with loops that Newton's method has taken as far as it goes
-    std::vector<std::uint8_t> large_;   ///< parts of more than PartFinish::kFewRows rows
     std::vector<std::uint8_t> impact_;  ///< large parts that an impact goes through
-    std::vector<std::uint8_t> far_;     ///< impacts that are far from solved
     std::vector<Real> before_;          ///< residual of each part kStallIterations ago
     std::vector<Real> last_;            ///< residual of each part before its last sweep
     JointLoops loops_;

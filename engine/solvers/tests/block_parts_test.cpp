@@ -62,19 +62,6 @@ RowProblem<S> pairProblem(unsigned seed) {
     return p;
 }
 
-/// A monitor with a tolerance, which ends nothing by itself.
-template <class S>
-class TolerantMonitor final : public IterationMonitor<S> {
-  public:
-    explicit TolerantMonitor(double tolerance) : tolerance_(static_cast<typename S::Real>(tolerance)) {}
-    void before(std::span<const Velocity<S>>) override {}
-    bool after(std::span<const Velocity<S>>, typename S::Real) override { return false; }
-    typename S::Real tolerance() const override { return tolerance_; }
-
-  private:
-    typename S::Real tolerance_;
-};
-
 /// Columns of boxes that lean on each other and fall at 5 m/s, each with two or four corners on the next.
 template <class S>
 RowProblem<S> fallingColumns(unsigned seed) {
@@ -109,7 +96,8 @@ TYPED_TEST(BlockParts, ImpactsComeAsNearBySingleSweeps) {
     for (unsigned seed = 0; seed < kSeeds; ++seed)
         for (const double tolerance : {1e-7, 1e-5}) {
             RowProblem<S> p = fallingColumns<S>(seed);
-            TolerantMonitor<S> monitor(tolerance);
+            QuietMonitor<S> monitor;
+            monitor.tolerated = static_cast<typename S::Real>(tolerance);
             constexpr int kSweeps = 20;  // too few for Newton's method
             solver->solve({p.rows, p.velocities, findAlgorithm(frictionTable<S>(), "friction", "cone").make,
                            monitor, kSweeps, typename S::Real(0.01), false, 0, 4});

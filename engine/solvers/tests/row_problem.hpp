@@ -20,7 +20,9 @@ class QuietMonitor final : public IterationMonitor<S> {
         ++iterations;
         return false;
     }
+    typename S::Real tolerance() const override { return tolerated; }
     int iterations = 0;
+    typename S::Real tolerated = 0;  ///< the tolerance; it ends nothing by itself
 };
 
 /// Bodies (0 is the world) and rows between them.
