@@ -53,9 +53,11 @@ struct PosedPair {
           Xa(compose<S>(world.bodies.arrays().pose[a.body], a.local)),
           Xb(compose<S>(world.bodies.arrays().pose[b.body], b.local)) {}
 
-    /// Their manifold; empty where they are further apart than `reach` [m].
-    Manifold<S> manifold(typename S::Real reach) const {
+    /// Their manifold; empty where they are further apart than `reach` [m]. Where others are as good, its points are those
+    /// that `memory` knows.
+    Manifold<S> manifold(typename S::Real reach, const ManifoldMemory<S>& memory) const {
         Manifold<S> found;
+        found.memory = memory;
         world.algorithms.narrowPhase->collide(a.shape, Xa, b.shape, Xb, reach, found);
         ManifoldCache<S> none;
         if (found.count > 0 && world.algorithms.makeManifold != nullptr)
@@ -74,16 +76,15 @@ struct PosedPair {
     Pose<S> Xa, Xb;
 };
 
-/// The point of a manifold with the same feature, else the nearest one.
+/// The point of a manifold that is nearest to one of the same contact, which showContacts() has moved to the same poses.
 template <class S>
 std::size_t nearestPoint(const Manifold<S>& manifold, const ManifoldPoint<S>& to) {
+    const auto distance = [&](std::size_t i) {
+        return (manifold.points[i].pointA + manifold.points[i].pointB - to.pointA - to.pointB).squaredNorm();
+    };
     std::size_t nearest = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
-        if (manifold.points[i].feature == to.feature) return i;
-        if ((manifold.points[i].pointB - to.pointB).squaredNorm() <
-            (manifold.points[nearest].pointB - to.pointB).squaredNorm())
-            nearest = i;
-    }
+    for (std::size_t i = 1; i < static_cast<std::size_t>(manifold.count); ++i)
+        if (distance(i) < distance(nearest)) nearest = i;
     return nearest;
 }
 
@@ -92,7 +93,8 @@ std::size_t nearestPoint(const Manifold<S>& manifold, const ManifoldPoint<S>& to
 template <class S>
 ShownContact<S> foundAgain(const WorldParts<S>& world, const Contact<S>& contact) {
     const PosedPair<S> pair(world, contact.shapeA, contact.shapeB);
-    ShownContact<S> shown{pair.manifold(reachOf(contact, 2 * world.def.slop)), {}, {}};
+    ShownContact<S> shown{
+        pair.manifold(reachOf(contact, 2 * world.def.slop), contact.manifold.memory), {}, {}};
     if (shown.manifold.count == 0) shown.manifold = pair.closest();
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
         if (!hasActed(contact, i)) continue;
@@ -123,7 +125,7 @@ ShownContact<S> foundSince(const WorldParts<S>& world, const Candidate<S>& candi
                        constants[shapes[candidate.b].body].type == BodyType::Dynamic;
     if (!moves || isComposite<S>(shapes[candidate.a].shape) || isComposite<S>(shapes[candidate.b].shape))
         return shown;
-    shown.manifold = PosedPair<S>(world, candidate.a, candidate.b).manifold(0);
+    shown.manifold = PosedPair<S>(world, candidate.a, candidate.b).manifold(0, {});
     for (std::size_t i = 0; i < static_cast<std::size_t>(shown.manifold.count); ++i)
         shown.hasActed[i] = shown.manifold.points[i].separation < 0;
     return shown;

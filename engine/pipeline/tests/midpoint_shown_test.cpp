@@ -49,6 +49,38 @@ TYPED_TEST(MidpointShown, ContactsAreWhereTheStepEnds) {
     }
 }
 
+/// Cubes on each other, each further out than the one below, so that corners carry different loads: impulses are shown at
+/// the corners at which they have acted, where they hold every cube's weight and its moment.
+TYPED_TEST(MidpointShown, CornersHaveTheirOwnImpulses) {
+    using S = TypeParam;
+    for (const char* solver : {"block", "nsgs"}) {
+        WorldDef<S> def = midpointDef<S>();
+        def.solver = solver;
+        World<S> world(def);
+        const auto felt = world.addMaterial(0.5, 0);
+        addGround<S>(world, felt);
+        std::vector<BodyId> cubes;
+        for (int i = 0; i < 4; ++i) cubes.push_back(addCube<S>(world, 0.1 * i, 0.5 + i, 0.5, 1, felt));
+        for (int step = 0; step < 120; ++step) {
+            world.step(kFrame);
+            std::vector<ContactView<S>> contacts;
+            world.readContacts(contacts);
+            for (const BodyId cube : cubes) {
+                typename S::Ang moment = spin<S>(0);
+                for (const ContactView<S>& contact : contacts) {
+                    const typename S::Vec impulse =
+                        contact.normalImpulse * contact.normal + contact.frictionImpulse;
+                    const typename S::Vec arm = contact.pointB - world.pose(cube).p;
+                    if (contact.bodyA == cube) moment -= cross(arm, impulse);
+                    if (contact.bodyB == cube) moment += cross(arm, impulse);
+                }
+                ASSERT_LT(std::sqrt(dotAng(moment, moment)), 1e-4 * kFrame * kGravity)
+                    << solver << ' ' << step;
+            }
+        }
+    }
+}
+
 /// Balls that pass each other: the normal turns by a tenth of a radian in the step, and is that of its end at once.
 TYPED_TEST(MidpointShown, NewContactsHaveTheNormalOfTheEnd) {
     using S = TypeParam;
