@@ -41,6 +41,8 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
     if (record.islands == IslandSize::Large) return;                 // their joints are linearised
     if (!only_.empty() && !only_[a] && !only_[b]) return;
     record.evaluate(record.joint, bodies_.pose[a], bodies_.pose[b], made);
+    const auto count = static_cast<std::size_t>(made.count);
+    if (out.row.size() < count) out.row.resize(count);
     out.block.kind = BlockKind::Joint;
     out.block.a = a;
     out.block.b = b;
@@ -71,7 +73,6 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
         out.driven[place] = made.law[i].role == RowRole::Motor;
         out.velocityRow[place] = record.firstRow + static_cast<std::uint32_t>(i);
     };
-    const auto count = static_cast<std::size_t>(made.count);
     for (std::size_t i = 0; i < count; ++i)
         if (isHeld(i)) add(i);
     out.block.rows = static_cast<std::uint8_t>(out.count);

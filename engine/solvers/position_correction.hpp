@@ -7,6 +7,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "engine/constraints/row.hpp"
 #include "engine/constraints/soft.hpp"
@@ -20,13 +21,14 @@ inline constexpr int kMaxPositionRows = 24;  ///< maximum number of rows of one 
 /// Motors and springs are no position constraints and are left out.
 template <class S>
 struct JointPositions {
-    Block<S> block;                                             ///< its bodies; rows = held rows
-    int count = 0;                                              ///< held rows and the others
-    std::array<Row<S>, kMaxPositionRows> row;                   ///< error is C now; invK of the row alone
+    Block<S> block;  ///< its bodies; rows = held rows
+    int count = 0;   ///< held rows and the others
+    /// At least `count`, few for most joints; error is C now, invK of the row alone.
+    std::vector<Row<S>> row;
     std::array<bool, kMaxPositionRows> unilateral{};            ///< a limit: only C < 0 is an error
     std::array<std::uint32_t, kMaxPositionRows> velocityRow{};  ///< the same row among those of the step
-    std::array<bool, kMaxPositionRows>
-        driven{};  ///< a motor that is held: its coordinate has the motor's speed
+    /// A motor that is held: its coordinate has the motor's speed.
+    std::array<bool, kMaxPositionRows> driven{};
 };
 
 /// The constraints as input of position correction, after the bodies have moved.
