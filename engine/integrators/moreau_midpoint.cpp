@@ -18,8 +18,9 @@
 // do not see. With position_correction=rattle bodies on joints go from a midpoint to q_1, and from q_0 to the first midpoint,
 // by half a step of RATTLE [Andersen1983] without forces (PositionCorrection::beginDrift), which keeps the momentum along the
 // joints' free directions. With the acceleration a that joints cause, the sequence of midpoints conserves
-//     H - h^2/12 a M a  where v_1 is shown and v_0 begun with,     H + h^2/24 a M a  by RATTLE (and terms of the forces):
-// a pendulum that is pushed where it hangs has a quarter of the error of its period.
+//     H - h^2/12 a M a  where v_1 is shown and v_0 begun with,     H + h^2/24 a M a  by RATTLE (and terms of the forces).
+// processed_rattle, the default, is between the two (solvers/corrections/correction_ngs.cpp): a pendulum that is pushed where it
+// hangs has a tenth of the error of its period that v_1 gives it.
 //
 // The midpoint is part of the world's state. It is found anew, q_0 + h/2 v_0, in the first step, where the
 // step size changes, and for a body whose velocity was set.

@@ -89,7 +89,7 @@ struct GoldenScene {
 };
 inline constexpr GoldenScene kGoldenScenes[] = {
     {.name = "default"},
-    {.name = "moreau_midpoint", .integrator = "moreau_midpoint"},
+    {.name = "moreau_midpoint", .integrator = "moreau_midpoint", .correction = "processed_rattle"},
     {.name = "pgs_verlet", .solver = "pgs", .integrator = "velocity_verlet", .narrowPhase = "gjk_epa"},
     {.name = "pgs_soft", .solver = "pgs_soft", .rotation = "explicit", .correction = "soft"},
     {.name = "single_pass", .solver = "single_pass", .rotation = "none", .correction = "baumgarte"},

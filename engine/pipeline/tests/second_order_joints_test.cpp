@@ -90,9 +90,9 @@ TYPED_TEST(SecondOrderOfJoints, PendulumsKeepTheirEnergy) {
             high[half] = std::max(high[half], change);
         }
         const bool tumbles = angles.size() > 1;
-        EXPECT_LT(high[1], tumbles ? 0.3 : 6e-4) << angles.size();
-        EXPECT_GT(low[1], tumbles ? -1e-3 : -1e-7) << angles.size();
-        EXPECT_LT(high[1], 1.5 * high[0]) << angles.size();
+        EXPECT_LT(high[1], tumbles ? 1e-3 : 4e-4) << angles.size();
+        EXPECT_GT(low[1], tumbles ? -0.05 : -1e-7) << angles.size();
+        EXPECT_LT(high[1] - low[1], 1.5 * (high[0] - low[0])) << angles.size();
     }
 }
 
@@ -100,9 +100,9 @@ TYPED_TEST(SecondOrderOfJoints, PendulumsKeepTheirEnergy) {
 /// put right alone on the way to the first midpoint it is 0.091 m off.
 TYPED_TEST(SecondOrderOfJoints, APushedPendulumKeepsItsPeriod) {
     using S = TypeParam;
-    const auto placeOf = [](int perSecond, bool setAgain) {
+    const auto placeOf = [](int perSecond, bool setAgain, const char* correction) {
         WorldDef<S> earth = earthWith<S>("moreau_midpoint");
-        earth.positionCorrection = "rattle";
+        earth.positionCorrection = correction;
         World<S> world(earth);
         BodyDef<S> def;
         def.mass = 1;
@@ -122,13 +122,16 @@ TYPED_TEST(SecondOrderOfJoints, APushedPendulumKeepsItsPeriod) {
         }
         return typename S::Vec(world.pose(rod).p);
     };
-    const typename S::Vec place = placeOf(1920, false);
-    EXPECT_LT((placeOf(60, false) - place).norm(), 0.025);
-    EXPECT_LT((placeOf(60, true) - place).norm(), 0.03) << "what the world shows is what a step begins with";
+    for (const auto& [correction, most] : {std::pair{"rattle", 0.025}, std::pair{"processed_rattle", 0.01}}) {
+        const typename S::Vec place = placeOf(1920, false, correction);
+        EXPECT_LT((placeOf(60, false, correction) - place).norm(), most) << correction;
+        EXPECT_LT((placeOf(60, true, correction) - place).norm(), most + 0.01)
+            << correction << ": what the world shows is what a step begins with";
+    }
 }
 
 /// Without forces but those of joints the midpoints keep H + c h^2 a M a, with the accelerations a: c = -1/12 where the shown
-/// velocity is the chord's, 1/24 by RATTLE. The shown energy H changes by -c h^2 times the change of a M a.
+/// velocity is the chord's, 1/24 by RATTLE, 1/96 with 3/4 of it. The shown energy H changes by -c h^2 times the change of a M a.
 template <class S>
 double energyPerAcceleration(const std::string& correction) {
     const double h = 1.0 / 960, mass = 1.3, inertia = 0.07;
@@ -171,6 +174,40 @@ double energyPerAcceleration(const std::string& correction) {
 TYPED_TEST(SecondOrderOfJoints, TheEnergyOfJointsIsKeptWithTheFactorOfRattle) {
     EXPECT_NEAR(energyPerAcceleration<TypeParam>("ngs"), 1.0 / 12, 0.05 / 12);
     EXPECT_NEAR(energyPerAcceleration<TypeParam>("rattle"), -1.0 / 24, 0.05 / 24);
+    EXPECT_NEAR(energyPerAcceleration<TypeParam>("processed_rattle"), -1.0 / 96, 0.05 / 24);
+}
+
+/// A weight on a massless rod that is released level: with a fraction w of RATTLE the energy shown is off by
+/// h^2/8 (1 - w) v^4 / r^2 per mass to the order h^2 (correction_ngs.cpp), most where it hangs, v^2 = 2 g r.
+TYPED_TEST(SecondOrderOfJoints, APendulumReleasedLevelHasTheEnergyOfItsShareOfRattle) {
+    using S = TypeParam;
+    const double h = 1.0 / 240, r = 1, inertia = 1e-9;
+    for (const auto& [correction, w] :
+         {std::pair{"ngs", 0.0}, std::pair{"processed_rattle", 0.75}, std::pair{"rattle", 1.0}}) {
+        WorldDef<S> earth = earthWith<S>("moreau_midpoint");
+        earth.positionCorrection = correction;
+        World<S> world(earth);
+        BodyDef<S> def;
+        def.mass = 1;
+        def.inertia = isotropic<S>(inertia);
+        def.pose.p = at<S>(r, 0);
+        const BodyId weight = world.addBody(def);
+        JointDef<S> joint;
+        joint.type = JointType::Hinge;
+        joint.bodyB = weight;
+        joint.anchorB = at<S>(-r, 0);
+        world.addJoint(joint);
+        double most = 0;
+        for (int i = 0; i < 480; ++i) {
+            world.step(h);
+            const double energy =
+                0.5 * world.velocity(weight).squaredNorm() + kGravity * world.pose(weight).p[1];
+            most = std::max(most, std::abs(energy));
+        }
+        const double bottom = 2 * kGravity * r;
+        EXPECT_NEAR(most, h * h / 8 * (1 - w) * bottom * bottom, 0.02 * h * h / 8 * bottom * bottom)
+            << correction;
+    }
 }
 
 /// The midpoints are part of the state: a copy and a restored world go on as the world does, bit for bit.

@@ -51,7 +51,7 @@ Traits traitsOf(const std::string& name) {
 }
 
 template <class S>
-WorldDef<S> earthWith(const char* solver, const char* correction = "ngs") {
+WorldDef<S> earthWith(const char* solver, const std::string& correction = WorldDef<S>().positionCorrection) {
     WorldDef<S> def = earth<S>();
     def.solver = solver;
     def.positionCorrection = correction;

@@ -14,6 +14,12 @@
 // Cost: iterations * constraints.
 //
 // `rattle` is the same, and takes joints over the halves of a step to midpoints and back by RATTLE (position_correction.hpp).
+// `processed_rattle` gives the velocities 3/4 of what RATTLE gives them. The halves of a step are the processor of the
+// sequence of midpoints [BlanesCasasMurua2004]: they decide which energy of the shown states it conserves. With a fraction w
+// of RATTLE's impulses the shown energy H varies, to the order h^2, by
+//     h^2 (1/12 - w/8) a M a                           joints that nothing but joints accelerates, accelerations a
+//     h^2/8 v^2 ((1/2 - w) v^2 / r^2 - g.n / r)        a point on an arc of radius r about a fixed one, gravity g, n to the centre
+// which vanish for w = 2/3 and, released at the height of the centre, for w = 1.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -30,7 +36,7 @@ class Ngs final : public PositionCorrection<S> {
   public:
     using Real = typename S::Real;
 
-    explicit Ngs(bool drifts) : drifts_(drifts) {}
+    explicit Ngs(Real drift) : drift_(drift) {}
     std::unique_ptr<PositionCorrection<S>> clone() const override { return std::make_unique<Ngs>(*this); }
 
     void correct(PositionProblem<S>& problem, const PositionIterations& iterations, Real slop) override {
@@ -52,10 +58,10 @@ class Ngs final : public PositionCorrection<S> {
             correctFurther(problem, iterations.most - iterations.usual, kNear);
     }
 
-    bool drifts() const override { return drifts_; }
+    bool drifts() const override { return drift_ > 0; }
 
     bool beginDrift(PositionProblem<S>& problem) override {
-        if (!drifts_) return false;
+        if (!drifts()) return false;
         evaluateAll(problem);
         return !held_.empty() && factor(held_, joints_, system_);
     }
@@ -82,7 +88,7 @@ class Ngs final : public PositionCorrection<S> {
         }
         held_.resize(awake);
         problem.applyRotations();
-        if (!held_.empty()) project(problem, Real(1) / time, whole, iterations);
+        if (!held_.empty()) project(problem, drift_ / time, whole, iterations);
     }
 
   private:
@@ -168,7 +174,7 @@ class Ngs final : public PositionCorrection<S> {
               [&](const JointPositions<S>& joint, const Real* x) { move(problem, joint, x); });
         problem.applyRotations();
         std::swap(joints_, ends_);
-        correctFurther(problem, std::min(iterations.most, 1), kSquared);
+        correctFurther(problem, iterations.most, std::min(kSquared, kNear));
         std::swap(joints_, ends_);
         if (limited_) correctLimits(problem);
     }
@@ -289,7 +295,7 @@ class Ngs final : public PositionCorrection<S> {
         }
     }
 
-    bool drifts_ = false;
+    Real drift_ = 0;  ///< fraction of RATTLE's impulses that velocities get; 0: no RATTLE
     std::vector<JointPositions<S>> joints_;
     // --- of a drift
     std::vector<JointPositions<S>> ends_;  ///< joints where bodies have moved to
@@ -308,14 +314,20 @@ class Ngs final : public PositionCorrection<S> {
 
 template <class S>
 std::unique_ptr<PositionCorrection<S>> makeNgs() {
-    return std::make_unique<Ngs<S>>(false);
+    return std::make_unique<Ngs<S>>(typename S::Real(0));
 }
 RIGOR_INSTANTIATE_FACTORY(makeNgs, PositionCorrection);
 
 template <class S>
 std::unique_ptr<PositionCorrection<S>> makeRattle() {
-    return std::make_unique<Ngs<S>>(true);
+    return std::make_unique<Ngs<S>>(typename S::Real(1));
 }
 RIGOR_INSTANTIATE_FACTORY(makeRattle, PositionCorrection);
+
+template <class S>
+std::unique_ptr<PositionCorrection<S>> makeProcessedRattle() {
+    return std::make_unique<Ngs<S>>(typename S::Real(0.75));
+}
+RIGOR_INSTANTIATE_FACTORY(makeProcessedRattle, PositionCorrection);
 
 }  // namespace rigor::engine
