@@ -94,8 +94,6 @@ class Ngs final : public PositionCorrection<S> {
   private:
     static constexpr Real kBaumgarte = Real(0.2);  ///< beta of contacts
     static constexpr Real kNear = Real(1e-5);      ///< joint error that Newton's method squares [m] or [rad]
-    /// An error that Newton's method leaves no more than rounding of [m] or [rad].
-    inline static const Real kSquared = std::sqrt(Real(10) * std::numeric_limits<Real>::epsilon());
     static constexpr Real kRounding =
         Real(1000) * std::numeric_limits<Real>::epsilon();  ///< error that rounding leaves
     static constexpr Real kLongestMove = Real(0.2);         ///< longest move per contact and iteration [m]
@@ -174,7 +172,9 @@ class Ngs final : public PositionCorrection<S> {
               [&](const JointPositions<S>& joint, const Real* x) { move(problem, joint, x); });
         problem.applyRotations();
         std::swap(joints_, ends_);
-        correctFurther(problem, iterations.most, std::min(kSquared, kNear));
+        // A bound far above rounding would be met at one scale of lengths and not at another.
+        if (iterations.most > 0) correctFurther(problem, 1, std::min(kRounding, kNear));
+        if (iterations.most > 1) correctFurther(problem, iterations.most - 1, kNear);
         std::swap(joints_, ends_);
         if (limited_) correctLimits(problem);
     }
