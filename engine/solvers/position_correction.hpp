@@ -23,7 +23,7 @@ template <class S>
 struct JointPositions {
     Block<S> block;  ///< its bodies; rows = held rows
     int count = 0;   ///< held rows and the others
-    /// At least `count`, few for most joints; error is C now, invK of the row alone.
+    /// It has at least `count` rows, few for most joints; their error is C now, their invK that of the row alone.
     std::vector<Row<S>> row;
     std::array<bool, kMaxPositionRows> unilateral{};            ///< a limit: only C < 0 is an error
     std::array<std::uint32_t, kMaxPositionRows> velocityRow{};  ///< the same row among those of the step
@@ -88,7 +88,7 @@ class PositionCorrection {
     // poses and velocities v_0 before,
     //     q = q_0 + time v,   v = v_0 + M^-1 J_0^T mu,   C(q) = C(q_0)
     // and v is projected onto the tangents at q, so that it has the momentum of v_0 along the joints' free directions. What
-    // was wrong in q_0, by rounding for one, is put right after that and becomes no velocity.
+    // was wrong in q_0, by rounding for one, is put right after that and becomes no velocity. A correction may give v less of mu.
     /// Whether this correction does so.
     virtual bool drifts() const { return false; }
     /// Called where the bodies move from. False: this correction cannot do it, or not for these joints.
