@@ -153,6 +153,8 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
     for (Record& record : records_) {
         const std::uint32_t a = record.joint.a, b = record.joint.b;
         record.solved = record.islands == step.islands;
+        record.updates = 0;
+        record.linear = false;
         if (!record.solved) continue;
         record.firstRow = static_cast<std::uint32_t>(rows.rows.size());
         if (bodies.invMass[a] == 0 && bodies.invMass[b] == 0) {  // asleep
@@ -261,39 +263,54 @@ void JointSet<S>::addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, 
 }
 
 template <class S>
-BiasChange<typename S::Real> JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
-                                                       std::span<const Velocity<S>> velocities,
-                                                       ConstraintRows<S>& rows) {
-    BiasChange<Real> change;
-    if (!step.relinearized) return change;
-    for (const Record& record : records_)
-        if (record.solved && record.rows > 0) updateBias(bodies, step, velocities, record, rows, change);
-    return change;
+template <class Use>
+void JointSet<S>::forBlocks(std::span<const std::uint32_t> blocks, const Use& use) {
+    for (const std::uint32_t block : blocks)
+        if (block < recordOf_.size() && recordOf_[block] != kNullIndex) use(records_[recordOf_[block]]);
 }
 
 template <class S>
-BiasChange<typename S::Real> JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
-                                                       std::span<const Velocity<S>> velocities,
-                                                       ConstraintRows<S>& rows,
-                                                       std::span<const std::uint32_t> blocks) {
-    BiasChange<Real> change;
-    if (!step.relinearized) return change;
-    for (const std::uint32_t block : blocks)
-        if (block < recordOf_.size() && recordOf_[block] != kNullIndex)
-            updateBias(bodies, step, velocities, records_[recordOf_[block]], rows, change);
-    return change;
+void JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                               std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) {
+    if (!step.relinearized) return;
+    for (Record& record : records_)
+        if (record.solved && record.rows > 0) updateBias(bodies, step, velocities, record, rows);
+}
+
+template <class S>
+void JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                               std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows,
+                               std::span<const std::uint32_t> blocks) {
+    if (!step.relinearized) return;
+    forBlocks(blocks, [&](Record& record) { updateBias(bodies, step, velocities, record, rows); });
+}
+
+template <class S>
+void JointSet<S>::updateChanging(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                                 std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows,
+                                 Real still) {
+    for (Record& record : records_)
+        if (record.solved && record.isIterated() && record.change.step > still)
+            updateBias(bodies, step, velocities, record, rows);
+}
+
+template <class S>
+void JointSet<S>::linearise(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                            std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows,
+                            std::span<const std::uint32_t> blocks) {
+    forBlocks(blocks, [&](Record& record) {
+        renewBias(bodies, step, velocities, record, Real(0), rows);
+        record.linear = true;
+    });
 }
 
 template <class S>
 void JointSet<S>::updateBias(const BodyArrays<S>& bodies, const JointStep<S>& step,
-                             std::span<const Velocity<S>> velocities, const Record& record,
-                             ConstraintRows<S>& rows, BiasChange<Real>& change) {
+                             std::span<const Velocity<S>> velocities, Record& record,
+                             ConstraintRows<S>& rows) {
+    if (record.linear) return;
+    ++record.updates;
     const Block<S>& block = rows.blocks[record.block];
-    // Joints depend on the difference of positions alone. Relative to the first body it has no rounding of the place.
-    const auto moved = [&](std::uint32_t i) -> Pose<S> {
-        return {(bodies.pose[i].p - bodies.pose[block.a].p) + step.h * velocities[i].v,
-                rotatedBy(bodies.pose[i].q, typename S::Ang(step.h * velocities[i].w))};
-    };
     typename S::Vec force = S::Vec::Zero();
     for (std::uint32_t i = 0; i < record.rows; ++i)
         force += rows.rows[record.firstRow + i].impulse * rows.rows[record.firstRow + i].lin;
@@ -303,60 +320,35 @@ void JointSet<S>::updateBias(const BodyArrays<S>& bodies, const JointStep<S>& st
             swingFraction<S>(step.h, velocities[i].w, arm),
             stiffnessFraction<S>(step.h, force.norm(), arm, bodies.invMass[i], bodies.invInertia[i]));
     };
-    const Real fraction = step.curvature * std::min(fractionOf(block.a, record.joint.anchorA),
-                                                    fractionOf(block.b, record.joint.anchorB));
+    renewBias(bodies, step, velocities, record,
+              std::min(fractionOf(block.a, record.joint.anchorA), fractionOf(block.b, record.joint.anchorB)),
+              rows);
+}
+
+/// `fraction`: of what the joint is off beyond its linearisation.
+template <class S>
+void JointSet<S>::renewBias(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                            std::span<const Velocity<S>> velocities, Record& record, Real fraction,
+                            ConstraintRows<S>& rows) {
+    const Block<S>& block = rows.blocks[record.block];
+    // Joints depend on the difference of positions alone. Relative to the first body it has no rounding of the place.
+    const auto moved = [&](std::uint32_t i) -> Pose<S> {
+        return {(bodies.pose[i].p - bodies.pose[block.a].p) + step.h * velocities[i].v,
+                rotatedBy(bodies.pose[i].q, typename S::Ang(step.h * velocities[i].w))};
+    };
     record.evaluate(record.joint, moved(block.a), moved(block.b), made_);
+    record.change = {};
     for (std::uint32_t i = 0; i < record.rows; ++i) {
         if (made_.law[i].role != RowRole::Equality && made_.law[i].role != RowRole::Limit) continue;
         Row<S>& row = rows.rows[record.firstRow + i];
         const Real beyondLinear = (made_.error[i] - row.error) / step.h -
                                   rowVelocity<S>(row, velocities[block.a], velocities[block.b]);
         const Real bias = fraction * beyondLinear;
-        change.step = std::max(change.step, std::abs(bias - row.relaxedBias));
-        change.largest = std::max(change.largest, std::abs(bias));
+        record.change.step = std::max(record.change.step, std::abs(bias - row.relaxedBias));
+        record.change.largest = std::max(record.change.largest, std::abs(bias));
         row.relaxedBias = bias;
         row.bias = row.relaxedBias + startBias_[record.firstRow + i];
     }
-}
-
-template <class S>
-void JointSet<S>::remember(const ConstraintRows<S>& rows, std::span<const Velocity<S>> velocities) {
-    if (records_.empty()) return;
-    startVelocities_.assign(velocities.begin(), velocities.end());
-    startImpulses_.clear();
-    for (const Row<S>& row : rows.rows) startImpulses_.push_back(row.impulse);
-}
-
-/// The change of kinetic energy is the sum over all rows of impulse times mean of J v before and after.
-template <class S>
-typename S::Real JointSet<S>::work(const ConstraintRows<S>& rows,
-                                   std::span<const Velocity<S>> velocities) const {
-    Real work = 0, energy = 0;
-    const auto add = [&](std::uint32_t body, Real invMass) {
-        if (invMass > 0)
-            energy += (startVelocities_[body].v.squaredNorm() + velocities[body].v.squaredNorm()) / invMass;
-    };
-    for (const Record& record : records_) {
-        if (!record.solved || record.equalities == 0) continue;
-        const Block<S>& block = rows.blocks[record.block];
-        for (std::uint32_t i = record.firstRow; i < record.firstRow + record.equalities; ++i) {
-            const Row<S>& row = rows.rows[i];
-            work += row.impulse * (rowVelocity<S>(row, startVelocities_[block.a], startVelocities_[block.b]) +
-                                   rowVelocity<S>(row, velocities[block.a], velocities[block.b]));
-        }
-        add(block.a, block.invMassA);
-        add(block.b, block.invMassB);
-    }
-    return energy > 0 ? work / energy : Real(0);
-}
-
-template <class S>
-void JointSet<S>::restart(ConstraintRows<S>& rows, std::span<Velocity<S>> velocities) const {
-    std::copy(startVelocities_.begin(), startVelocities_.end(), velocities.begin());
-    for (std::size_t i = 0; i < rows.rows.size(); ++i) rows.rows[i].impulse = startImpulses_[i];
-    for (const Record& record : records_)
-        for (std::uint32_t i = 0; record.solved && i < record.equalities; ++i)
-            rows.rows[record.firstRow + i].impulse = 0;
 }
 
 template <class S>

@@ -23,7 +23,6 @@ struct JointStep {
     IslandSize islands = IslandSize::Usual;  ///< rows are of the joints of these islands
     bool atMidpoint = false;                 ///< the step leads from midpoint to midpoint
     bool begins = true;                      ///< the first sub-step
-    typename S::Real curvature = 1;  ///< factor on that change of the bias; < 1 where the iteration diverges
 };
 
 /// Change of the joints' biases when they were re-linearised [m/s or rad/s].
@@ -53,6 +52,11 @@ class JointSet {
         std::uint32_t block = 0;                 ///< block of the equality rows; each other row has its own
         /// Rows beside those of its axes; -1: not known yet.
         std::int32_t ownRows = -1, ownEqualities = 0;
+        BiasChange<Real> change;    ///< when its bias was last re-linearised
+        std::uint32_t updates = 0;  ///< number of re-linearisations in this (sub-)step
+        bool linear = false;        ///< its rows stay as they were at the start of the (sub-)step
+        /// Iterations that change it can have converged; that is not required of two or three.
+        bool isIterated() const { return updates >= 4; }
     };
 
     std::vector<Record>& records() { return records_; }
@@ -75,21 +79,19 @@ class JointSet {
     ///     bias = (C(x + h v, exp(h w) q) - C(x, q)) / h - J v + bias of C by the bias rule
     /// With symplectic Euler this is SHAKE [RyckaertCiccottiBerendsen1977], which conserves the energy of a
     /// pendulum, whereas the linear row loses a fraction (h w)^2 / 2 of the speed in every step.
-    BiasChange<Real> updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
-                                  std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows);
+    void updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                      std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows);
     /// The same for the joints of these blocks.
-    BiasChange<Real> updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
-                                  std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows,
-                                  std::span<const std::uint32_t> blocks);
-
-    /// Stores impulses and velocities before a solve, for work() and restart(). Allocates only when there are
-    /// more rows or bodies than ever before.
-    void remember(const ConstraintRows<S>& rows, std::span<const Velocity<S>> velocities);
-    /// Work of the equality rows since remember(), relative to the kinetic energy before and after (summed
-    /// over each joint's bodies, so that a body counts once per joint). Zero for ideal joints.
-    Real work(const ConstraintRows<S>& rows, std::span<const Velocity<S>> velocities) const;
-    /// Restores the velocities and impulses of remember(); the impulses of equality rows become zero.
-    void restart(ConstraintRows<S>& rows, std::span<Velocity<S>> velocities) const;
+    void updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                      std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows,
+                      std::span<const std::uint32_t> blocks);
+    /// The same for joints whose bias changed by more than `still` the last time: changes then are what velocities lack.
+    void updateChanging(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                        std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows, Real still);
+    /// The joints of these blocks become linear until rows are added anew.
+    void linearise(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                   std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows,
+                   std::span<const std::uint32_t> blocks);
 
   private:
     static constexpr std::size_t kGrain = 64;  ///< joints: one takes some 0.2 us
@@ -100,8 +102,13 @@ class JointSet {
     void fillRows(const BodyArrays<S>& bodies, const JointStep<S>& step, Record& record, JointRows<S>& made,
                   ConstraintRows<S>& rows) const;
     void updateBias(const BodyArrays<S>& bodies, const JointStep<S>& step,
-                    std::span<const Velocity<S>> velocities, const Record& record, ConstraintRows<S>& rows,
-                    BiasChange<Real>& change);
+                    std::span<const Velocity<S>> velocities, Record& record, ConstraintRows<S>& rows);
+    void renewBias(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                   std::span<const Velocity<S>> velocities, Record& record, Real fraction,
+                   ConstraintRows<S>& rows);
+    /// Calls use(record) for the joints of these blocks.
+    template <class Use>
+    void forBlocks(std::span<const std::uint32_t> blocks, const Use& use);
     void addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, const RowLaw<S>& law, Real error,
                 const Block<S>& block, Row<S>& row) const;
 
@@ -109,8 +116,6 @@ class JointSet {
     std::vector<Real> startBias_;  ///< initial bias of each row
     std::vector<std::uint32_t>
         recordOf_;  ///< block -> its record, of a record's first block; else kNullIndex
-    std::vector<Real> startImpulses_;
-    std::vector<Velocity<S>> startVelocities_;
     JointRows<S> made_;
 };
 

@@ -30,24 +30,16 @@ class StepMonitor final : public IterationMonitor<S> {
           observer_(observer),
           residuals_(residuals) {}
     void before(std::span<const Velocity<S>> velocities) override {
-        change_ = joints_.updateBiases(bodies_, step_, velocities, rows_);
+        joints_.updateBiases(bodies_, step_, velocities, rows_);
         contacts_.updateSlips(velocities, rows_);
-        ++updates_;
     }
     void before(std::span<const Velocity<S>> velocities, std::span<const std::uint32_t> blocks) override {
-        change_ = joints_.updateBiases(bodies_, step_, velocities, rows_, blocks);
+        joints_.updateBiases(bodies_, step_, velocities, rows_, blocks);
         contacts_.updateSlips(velocities, blocks, rows_);
-        ++updates_;
     }
     bool mayRenew(std::uint32_t block) const override {
         return !isOfContact(rows_.blocks[block].kind) || contacts_.hasSlip(block);
     }
-    /// True once the joint bias, re-linearised at the predicted end-of-step poses, has stopped changing.
-    bool biasConverged() const {
-        const Real still = kStill * std::max(tolerance_, std::numeric_limits<Real>::epsilon());
-        return updates_ < 4 || change_.step <= std::max(kSettled * change_.largest, still);
-    }
-
     bool after(std::span<const Velocity<S>> velocities, Real change) override {
         Real residual = change;
         if (measure_) {
@@ -61,10 +53,6 @@ class StepMonitor final : public IterationMonitor<S> {
     Real tolerance() const override { return tolerance_; }
 
   private:
-    static constexpr Real kSettled = Real(1e-3);  ///< relative to the largest bias
-    static constexpr Real kStill = Real(1e3);  ///< tolerances of the iteration: rounding of positions over h
-    BiasChange<Real> change_;
-    int updates_ = 0;  ///< convergence is not required of two or three
     JointSet<S>& joints_;
     const ContactModel<S>& contacts_;
     const BodyArrays<S>& bodies_;
@@ -75,10 +63,6 @@ class StepMonitor final : public IterationMonitor<S> {
     const IterationObserver<S>& observer_;
     std::vector<Real>& residuals_;
 };
-
-/// Divergence test of the re-linearisation: largest work of the equality rows relative to the kinetic energy
-/// of their bodies. A pendulum of length L has up to g h^2 / (2 L); a chain of 20 links 6e-5.
-constexpr double kMostWork = 0.01;
 
 }  // namespace
 
@@ -245,21 +229,35 @@ void Step<S>::solveVelocities(int iterations, bool warmStarted) {
     SolverInput<S> input{rows_,       bodies_.velocity,       algorithms_.friction,  monitor, iterations, h,
                          warmStarted, def_.residualTolerance, def_.pyramidDirections};
     const bool mayRestart = state_.jointStep.relinearized && contactModel_.canRestart();
-    if (mayRestart) joints_.remember(rows_, bodies_.velocity);
+    if (mayRestart) state_.convergence.remember(joints_, rows_, bodies_.velocity);
     contactModel_.solve(*method_.solver, input, tasks_);
     result_.solverGaveUp = result_.solverGaveUp || method_.solver->gaveUp();
     if (!state_.jointStep.relinearized) return;
-    // The joint biases are re-linearised in every iteration. That diverges where light links rotate far in a
-    // step, or where the joints hardly allow the motion, as in a flat net: then the step is solved again with
-    // the linearisation at its start.
     const bool ideal =
         !state_.jointStep.bias.soft && state_.jointStep.bias.baumgarte == 0;  // other joints may do work
-    const bool diverges = mayRestart && ideal && joints_.work(rows_, bodies_.velocity) > Real(kMostWork);
-    if (!diverges && monitor.biasConverged()) return;
-    state_.jointStep.curvature = 0;
-    if (diverges) joints_.restart(rows_, bodies_.velocity);
-    input.warmStarted = warmStarted || !diverges;
-    contactModel_.solve(*method_.solver, input, tasks_);
+    // Rounding of positions changes biases by that over h.
+    const Real still = Real(1e3) * std::max(converged, std::numeric_limits<Real>::epsilon());
+    joints_.updateChanging(bodies_, state_.jointStep, bodies_.velocity, rows_, still);
+    state_.convergence.find(joints_, rows_, bodies_.velocity, still, mayRestart && ideal);
+    state_.convergence.restart(rows_, bodies_.velocity);
+    solveLinearised(input, state_.convergence.working());
+    input.warmStarted = true;
+    solveLinearised(input, state_.convergence.changing());
+}
+
+/// Solves parts again whose joints have diverged, without their curvature. Contacts that have no rows cannot be taken apart.
+template <class S>
+void Step<S>::solveLinearised(const SolverInput<S>& input, std::span<const std::uint32_t> blocks) {
+    if (blocks.empty()) return;
+    joints_.linearise(bodies_, state_.jointStep, input.velocities, rows_, blocks);
+    if (blocks.size() == rows_.blocks.size() || !contactModel_.canRestart()) {
+        contactModel_.solve(*method_.solver, input, tasks_);
+    } else {
+        state_.part.load(input, blocks, true);
+        contactModel_.solve(*method_.solver, state_.part.input(), tasks_);
+        state_.part.store();
+    }
+    result_.solverGaveUp = result_.solverGaveUp || method_.solver->gaveUp();
 }
 
 template <class S>

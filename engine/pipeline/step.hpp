@@ -11,6 +11,7 @@
 
 #include "engine/ccd/flight_impacts.hpp"
 #include "engine/core/disjoint_sets.hpp"
+#include "engine/pipeline/joint_convergence.hpp"
 #include "engine/pipeline/step_positions.hpp"
 #include "engine/pipeline/step_result.hpp"
 #include "engine/pipeline/world_parts.hpp"
@@ -53,6 +54,8 @@ struct StepState {
     ConstraintRows<S> rows;
     std::size_t jointRows = 0;  ///< number of joint rows; they come first in `rows`
     std::vector<Real> warmStart;
+    JointConvergence<S> convergence;
+    PartProblem<S> part;  ///< parts that are solved again
     PositionScratch<S> positions;
     ConstraintRows<S> noContacts;         ///< always empty
     std::vector<Velocity<S>> still, way;  ///< zero; velocities of each body in the last sub-step
@@ -186,6 +189,7 @@ class Step {
     ContactStep<S> contactStep() const;
     BiasRule<Real> biasRule() const;
     void solveVelocities(int iterations, bool warmStarted);
+    void solveLinearised(const SolverInput<S>& input, std::span<const std::uint32_t> blocks);
     void solveImpacts();
     void countContacts();
     void advanceContacts();

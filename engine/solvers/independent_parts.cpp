@@ -65,8 +65,9 @@ std::uint32_t PartProblem<S>::local(std::uint32_t body) {
 }
 
 template <class S>
-void PartProblem<S>::load(const SolverInput<S>& whole, std::span<const std::uint32_t> blocks) {
+void PartProblem<S>::load(const SolverInput<S>& whole, std::span<const std::uint32_t> blocks, bool reports) {
     whole_ = &whole;
+    reports_ = reports;
     blocks_.assign(blocks.begin(), blocks.end());
     rows_.clear();
     rowOf_.clear();
@@ -130,8 +131,10 @@ void PartProblem<S>::before(std::span<const Velocity<S>>) {
 }
 
 template <class S>
-bool PartProblem<S>::after(std::span<const Velocity<S>>, Real) {
-    return false;
+bool PartProblem<S>::after(std::span<const Velocity<S>>, Real change) {
+    if (!reports_) return false;
+    store();
+    return whole_->monitor.after(whole_->velocities, change);
 }
 
 #define RIGOR_INSTANTIATE(S)                                                                           \

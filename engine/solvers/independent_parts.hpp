@@ -44,8 +44,9 @@ template <class S>
 class PartProblem final : private IterationMonitor<S> {
   public:
     using Real = typename S::Real;
-    /// Copies the given blocks of `whole`, which has to outlive this object's use.
-    void load(const SolverInput<S>& whole, std::span<const std::uint32_t> blocks);
+    /// Copies the given blocks of `whole`, which has to outlive this object's use. `reports`: iterations are those of the
+    /// whole problem, whose monitor sees them.
+    void load(const SolverInput<S>& whole, std::span<const std::uint32_t> blocks, bool reports = false);
     SolverInput<S> input();
     /// Writes impulses and velocities to the whole problem.
     void store();
@@ -60,6 +61,7 @@ class PartProblem final : private IterationMonitor<S> {
     ConstraintRows<S> rows_;
     std::vector<Velocity<S>> velocities_;
     bool renews_ = false;  ///< biases of its rows may change with the velocities
+    bool reports_ = false;
     std::vector<std::uint32_t> blocks_, rowOf_, bodyOf_;  ///< blocks, rows and bodies of the whole problem
     std::vector<std::uint32_t>
         localOf_;  ///< index of each body of the whole problem; kNullIndex: not in the part
