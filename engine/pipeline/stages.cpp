@@ -40,6 +40,7 @@ class StepMonitor final : public IterationMonitor<S> {
     bool mayRenew(std::uint32_t block) const override {
         return !isOfContact(rows_.blocks[block].kind) || contacts_.hasSlip(block);
     }
+
     bool after(std::span<const Velocity<S>> velocities, Real change) override {
         Real residual = change;
         if (measure_) {
