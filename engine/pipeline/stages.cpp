@@ -338,9 +338,8 @@ void Step<S>::correct() {
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
         StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, state_.positions);
         // Joints are put right again at the end of the step; one iteration keeps midpoints from drifting.
-        const bool once = motion_.isAtMidpoint() && positions.contactCount() == 0;
-        const int most = def_.positionIterations;
-        algorithms_.correction->correct(positions, {most, once ? std::min(most, 1) : most}, def_.slop);
+        const int most = def_.positionIterations, alone = motion_.isAtMidpoint() ? std::min(most, 1) : most;
+        algorithms_.correction->correct(positions, {most, most, alone}, def_.slop);
     }
     motion_.finish(bodies_, h, tasks_);
     if (!last) advanceContacts();

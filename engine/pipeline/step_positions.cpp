@@ -81,9 +81,9 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
 }
 
 template <class S>
-void StepPositions<S>::moveBody(std::uint32_t body, const typename S::Vec& d, const typename S::Ang& turn) {
-    bodies_.pose[body].p += d;
-    scratch_.motion[body].v += d;
+void StepPositions<S>::moveBody(std::uint32_t body, const typename S::Vec& by, const typename S::Ang& turn) {
+    bodies_.pose[body].p += by;
+    scratch_.motion[body].v += by;
     scratch_.motion[body].w += turn;
     const bool first = dotAng(scratch_.turn[body], scratch_.turn[body]) == Real(0);
     scratch_.turn[body] += turn;

@@ -50,6 +50,7 @@ class StepPositions final : public PositionProblem<S> {
         return contactRow(i).error + moved(contactBlock(i), contactRow(i));
     }
     void move(const Block<S>& block, const Row<S>& row, Real lambda) override;
+    void moveBody(std::uint32_t body, const typename S::Vec& by, const typename S::Ang& turn) override;
     void applyRotations() override;
     Real velocity(const Block<S>& block, const Row<S>& row) const override {
         return rowVelocity<S>(row, bodies_.velocity[block.a], bodies_.velocity[block.b]);
@@ -59,8 +60,6 @@ class StepPositions final : public PositionProblem<S> {
     void takeOnly(std::span<const std::uint8_t> bodies) { only_ = bodies; }
 
   private:
-    void moveBody(std::uint32_t body, const typename S::Vec& d, const typename S::Ang& turn);
-
     BodyArrays<S>& bodies_;
     const JointSet<S>& joints_;
     const ConstraintRows<S>& rows_;

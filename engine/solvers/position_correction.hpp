@@ -49,6 +49,8 @@ class PositionProblem {
     virtual typename S::Real moved(const Block<S>& block, const Row<S>& row) const = 0;
     /// Moves the bodies of a block by M^-1 J^T lambda, an impulse times a second [kg m].
     virtual void move(const Block<S>& block, const Row<S>& row, typename S::Real lambda) = 0;
+    /// Moves a body [m] and turns it, a rotation vector [rad].
+    virtual void moveBody(std::uint32_t body, const typename S::Vec& by, const typename S::Ang& turn) = 0;
     /// Makes the rotations of earlier moves visible to evaluateJoint.
     virtual void applyRotations() = 0;
     /// J v of a row, for the velocities that the bodies have now [m/s] or [rad/s].
@@ -63,7 +65,8 @@ class PositionProblem {
 /// iterations of Newton's method are enough; joints that are further apart have more.
 struct PositionIterations {
     int most;
-    int usual = most;  ///< enough where the joints are nearly right
+    int usual = most;   ///< enough where the joints are nearly right
+    int alone = usual;  ///< the same where neither contacts nor limits move the bodies of connected joints
 };
 
 template <class S>

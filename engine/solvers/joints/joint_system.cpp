@@ -66,19 +66,27 @@ typename JointSystem<S>::Place JointSystem<S>::placeOf(const Item& item) {
 
 template <class S>
 bool JointSystem<S>::factor(std::span<const Item> items, const Tasks& tasks) {
+    if (!begin(items)) return false;
+    tasks.forEach(parts_.size(), kGrain, [&](std::size_t p) { factor(items, p); });
+    return true;
+}
+
+template <class S>
+bool JointSystem<S>::begin(std::span<const Item> items) {
     bool same = items.size() == pattern_.size();
     for (std::size_t i = 0; same && i < items.size(); ++i) same = placeOf(items[i]) == pattern_[i];
     if (!same) fits_ = analyse(items);
-    if (!fits_) return false;
-    tasks.forEach(parts_.size(), kGrain, [&](std::size_t p) {
-        const Part& part = parts_[p];
-        withSize(part.size, [&](auto size) {
-            if (part.fronts != kNullIndex) return factorFronts<size()>(items, part);
-            assemble<size()>(items, part);
-            eliminate(part);
-        });
+    return fits_;
+}
+
+template <class S>
+void JointSystem<S>::factor(std::span<const Item> items, std::size_t p) {
+    const Part& part = parts_[p];
+    withSize(part.size, [&](auto size) {
+        if (part.fronts != kNullIndex) return factorFronts<size()>(items, part);
+        assemble<size()>(items, part);
+        eliminate(part);
     });
-    return true;
 }
 
 /// The lower triangle of an item's own block, in columns of `stride`.

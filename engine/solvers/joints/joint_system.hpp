@@ -33,6 +33,9 @@ class JointSystem {
     /// dense (more than kMaxFill blocks per item); then there are no factors and solve() may not be called.
     /// Allocates where the items' bodies or numbers of rows are not those of the call before.
     bool factor(std::span<const Item> items, const Tasks& tasks = Tasks::one());
+    /// The same in two steps: finds the parts of the items, and factors one of them.
+    bool begin(std::span<const Item> items);
+    void factor(std::span<const Item> items, std::size_t part);
     /// Right side of an item, replaced by its solution, one number per row, in the order of factor(). All
     /// right sides have to be set before each solve().
     Real* at(std::size_t item) { return x_.data() + place_[item]; }
