@@ -80,7 +80,7 @@ class Ngs final : public PositionCorrection<S> {
     /// Least mobility that joints leave to a contact or a limit, relative to its own.
     static constexpr Real kLeastMobility = Real(1e-2);
 
-    /// A limit of joints that hold.
+    /// A row of a joint that is a limit.
     struct Limit {
         std::size_t joint, row;
         Real error;  ///< C where bodies have not moved since the rows of the step were made [m] or [rad]
@@ -89,8 +89,8 @@ class Ngs final : public PositionCorrection<S> {
     struct Push {
         bool found = false;
         Real invK = 0;
-        std::size_t first = 0,
-                    last = 0;  ///< range of reach_, the last one excluded; empty: its two bodies alone
+        /// Range of reach_, the last one excluded; empty: its two bodies alone.
+        std::size_t first = 0, last = 0;
     };
 
     void findLimits(const PositionProblem<S>& problem) {

@@ -156,7 +156,7 @@ template <class S>
 void JointNewton<S>::approach(PositionProblem<S>& problem, Part& part, int iterations, bool evaluated) {
     for (int i = 0; i < iterations && !part.settled; ++i) {
         if (i > 0 || !evaluated) evaluate(problem, part);
-        if (part.error > 0) move(problem, part);
+        move(problem, part);
         if (part.error < Real(0.5) * part.before) continue;
         // Rounding is reached, or Newton's iteration has been too far off. Where it brings nothing at all, joint by joint
         // is slow and sure.
@@ -192,7 +192,7 @@ void JointNewton<S>::approachFurther(PositionProblem<S>& problem, Part& part, in
     }
 }
 
-/// The motion of a body among those that begin at `first`.
+/// The motion of a body among those that reach() finds.
 template <class S>
 Velocity<S>& JointNewton<S>::motionOf(std::uint32_t body, std::vector<Reach>& out) {
     if (body >= placeOf_.size()) placeOf_.resize(body + 1, kNullIndex);
