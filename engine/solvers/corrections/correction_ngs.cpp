@@ -49,7 +49,7 @@ class Ngs final : public PositionCorrection<S> {
         findLimits(problem);
         for (Part& part : newton_.parts()) {
             newton_.approach(problem, part, 1, true);
-            part.holds = part.hangs && part.factored && !part.slow && part.size() <= kMostHeld;
+            part.holds = part.hangs && newton_.fits() && !part.slow && part.size() <= kMostHeld;
         }
         sweepPushes(problem, iterations.usual, slop);
         for (Part& part : newton_.parts()) {

@@ -6,26 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/solvers/joints/row_coupling.hpp"
+
 namespace rigor::engine {
-namespace {
-
-/// J1 M^-1 J2^T of rows of two blocks, by the bodies that both move.
-template <class S>
-typename S::Real couplingOf(const Block<S>& block1, const Row<S>& row1, const Block<S>& block2,
-                            const Row<S>& row2) {
-    typename S::Real sum = 0;
-    for (const bool isB1 : {false, true})
-        for (const bool isB2 : {false, true}) {
-            const typename S::Real invMass = isB1 ? block1.invMassB : block1.invMassA;
-            if (!(invMass > 0) || (isB1 ? block1.b : block1.a) != (isB2 ? block2.b : block2.a)) continue;
-            sum += (isB1 == isB2 ? invMass : -invMass) * row1.lin.dot(row2.lin) +
-                   dotAng(isB1 ? row1.angB : row1.angA, isB2 ? row2.invIAngB : row2.invIAngA);
-        }
-    return sum;
-}
-
-}  // namespace
-
 template <class S>
 typename S::Real JointNewton<S>::errorOf(const JointPositions<S>& joint) {
     Real largest = 0;
@@ -121,7 +104,6 @@ void JointNewton<S>::move(PositionProblem<S>& problem, Part& part) {
     for (std::uint32_t m = part.first; m < part.last; ++m)
         items_[members_[m]] = {&joints_[jointOf(m)].block, joints_[jointOf(m)].row.data()};
     system_.factor(items_, system_.partOf(members_[part.first]));
-    part.factored = true;
     moveTogether(problem, part);
 }
 
@@ -192,61 +174,53 @@ void JointNewton<S>::approachFurther(PositionProblem<S>& problem, Part& part, in
     }
 }
 
-/// The motion of a body among those that reach() finds.
-template <class S>
-Velocity<S>& JointNewton<S>::motionOf(std::uint32_t body, std::vector<Reach>& out) {
-    if (body >= placeOf_.size()) placeOf_.resize(body + 1, kNullIndex);
-    if (placeOf_[body] == kNullIndex) {
-        placeOf_[body] = static_cast<std::uint32_t>(out.size());
-        out.push_back({body, Velocity<S>()});
-    }
-    return out[placeOf_[body]].motion;
-}
-
 /// Adds what the joints of a part make of an impulse along `row`.
 template <class S>
-void JointNewton<S>::hold(const Part& part, const Block<S>& block, const Row<S>& row,
-                          std::vector<Reach>& out) {
+void JointNewton<S>::hold(const Part& part, const Block<S>& block, const Row<S>& row) {
     for (std::uint32_t m = part.first; m < part.last; ++m) {
         const JointPositions<S>& joint = joints_[jointOf(m)];
         for (std::size_t r = 0; r < joint.block.rows; ++r)
-            system_.at(members_[m])[r] = -couplingOf<S>(joint.block, joint.row[r], block, row);
+            system_.at(members_[m])[r] = -blockCoupling<S>(joint.row[r], joint.block, row, block);
     }
     system_.solve(system_.partOf(members_[part.first]));
     for (std::uint32_t m = part.first; m < part.last; ++m) {
         const JointPositions<S>& joint = joints_[jointOf(m)];
         for (std::size_t r = 0; r < joint.block.rows; ++r)
-            push(joint.block, joint.row[r], system_.at(members_[m])[r], out);
-    }
-}
-
-template <class S>
-void JointNewton<S>::push(const Block<S>& block, const Row<S>& row, Real impulse, std::vector<Reach>& out) {
-    if (block.invMassA > 0) {
-        Velocity<S>& motion = motionOf(block.a, out);
-        motion.v -= (block.invMassA * impulse) * row.lin;
-        motion.w += impulse * row.invIAngA;
-    }
-    if (block.invMassB > 0) {
-        Velocity<S>& motion = motionOf(block.b, out);
-        motion.v += (block.invMassB * impulse) * row.lin;
-        motion.w += impulse * row.invIAngB;
+            applyRowImpulse<S>(joint.row[r], joint.block, system_.at(members_[m])[r], motion_[joint.block.a],
+                               motion_[joint.block.b]);
     }
 }
 
 template <class S>
 typename S::Real JointNewton<S>::reach(const Block<S>& block, const Row<S>& row, std::vector<Reach>& out) {
-    const std::size_t first = out.size();
-    push(block, row, Real(1), out);
+    motion_.resize(
+        std::max({motion_.size(), partOfBody_.size(), std::size_t(block.a) + 1, std::size_t(block.b) + 1}));
+    applyRowImpulse<S>(row, block, Real(1), motion_[block.a], motion_[block.b]);
     const Part* const a = block.invMassA > 0 ? partOf(block.a) : nullptr;
     const Part* const b = block.invMassB > 0 ? partOf(block.b) : nullptr;
-    if (a != nullptr && a->holds) hold(*a, block, row, out);
-    if (b != nullptr && b->holds && b != a) hold(*b, block, row, out);
-    const Velocity<S> still;
-    const Real way = rowVelocity<S>(row, block.invMassA > 0 ? motionOf(block.a, out) : still,
-                                    block.invMassB > 0 ? motionOf(block.b, out) : still);
-    for (std::size_t k = first; k < out.size(); ++k) placeOf_[out[k].body] = kNullIndex;
+    const bool holdsA = a != nullptr && a->holds, holdsB = b != nullptr && b->holds && b != a;
+    if (holdsA) hold(*a, block, row);
+    if (holdsB) hold(*b, block, row);
+    const Real way = rowVelocity<S>(row, motion_[block.a], motion_[block.b]);
+    takeMotions(block, out);
+    if (holdsA) takeMotions(*a, out);
+    if (holdsB) takeMotions(*b, out);
     return way;
+}
+
+/// Takes the motions of the bodies of a block to `out`, unless they are there.
+template <class S>
+void JointNewton<S>::takeMotions(const Block<S>& block, std::vector<Reach>& out) {
+    for (const std::uint32_t body : {block.a, block.b}) {
+        const Velocity<S> motion = std::exchange(motion_[body], Velocity<S>());
+        if (motion.v.isZero(0) && dotAng(motion.w, motion.w) == Real(0)) continue;
+        out.push_back({body, motion});
+    }
+}
+
+template <class S>
+void JointNewton<S>::takeMotions(const Part& part, std::vector<Reach>& out) {
+    for (std::uint32_t m = part.first; m < part.last; ++m) takeMotions(joints_[jointOf(m)].block, out);
 }
 
 RIGOR_INSTANTIATE_CLASS(JointNewton)

@@ -47,14 +47,13 @@ class JointNewton {
         std::uint32_t first = 0, last = 0;  ///< range of the members, the last one excluded
         /// Largest error of a row that holds, where the joints were evaluated last, and before that.
         Real error = 0, before = std::numeric_limits<Real>::infinity();
-        Real damping = 0;       ///< fraction of K's diagonal that is added to it, where there are loops
-        bool settled = false;   ///< rounding is reached
-        bool looped = false;    ///< some joint closes a loop
-        bool hangs = false;     ///< some joint connects it to a body that no impulse moves
-        bool slow = false;      ///< its joints are corrected one by one
-        bool factored = false;  ///< there are factors of K, of the last move()
-        bool holds = false;     ///< its joints hold while contacts and limits are pushed
-        bool pushed = false;    ///< a contact or a limit at one of its bodies was
+        Real damping = 0;      ///< fraction of K's diagonal that is added to it, where there are loops
+        bool settled = false;  ///< rounding is reached
+        bool looped = false;   ///< some joint closes a loop
+        bool hangs = false;    ///< some joint connects it to a body that no impulse moves
+        bool slow = false;     ///< its joints are corrected one by one
+        bool holds = false;    ///< its joints hold while contacts and limits are pushed
+        bool pushed = false;   ///< a contact or a limit at one of its bodies was
         std::size_t size() const { return last - first; }
     };
     /// Motion of a body by a unit impulse.
@@ -82,14 +81,11 @@ class JointNewton {
         const std::uint32_t part = body < partOfBody_.size() ? partOfBody_[body] : kNullIndex;
         return part == kNullIndex ? nullptr : &parts_[part];
     }
-    /// Indices of the joints of a part.
-    std::size_t jointOf(std::uint32_t member) const { return held_[members_[member]]; }
+    /// Whether there are factors.
+    bool fits() const { return fits_; }
 
-    /// Finds the joints of a part as they are now.
-    void evaluate(const PositionProblem<S>& problem, Part& part);
-    /// An iteration, from where the joints were evaluated.
-    void move(PositionProblem<S>& problem, Part& part);
-    /// At most so many iterations, until rounding is reached. `evaluated`: the joints are, for the first one.
+    /// The caller has evaluated the joints for the first iteration, if `evaluated`; each of the others evaluates them itself.
+    /// Iterations end where rounding is reached.
     void approach(PositionProblem<S>& problem, Part& part, int iterations, bool evaluated);
     /// Further iterations with damping, where the joints were further apart than `near` before the last one.
     void approachFurther(PositionProblem<S>& problem, Part& part, int iterations, Real near);
@@ -103,12 +99,15 @@ class JointNewton {
 
     static Real errorOf(const JointPositions<S>& joint);
     static void renewDamping(Part& part);
+    std::size_t jointOf(std::uint32_t member) const { return held_[members_[member]]; }
+    void evaluate(const PositionProblem<S>& problem, Part& part);
+    void move(PositionProblem<S>& problem, Part& part);
     void moveTogether(PositionProblem<S>& problem, const Part& part);
     void moveOneByOne(PositionProblem<S>& problem, const Part& part);
     static void damp(JointPositions<S>& joint, Real damping);
-    void push(const Block<S>& block, const Row<S>& row, Real impulse, std::vector<Reach>& out);
-    void hold(const Part& part, const Block<S>& block, const Row<S>& row, std::vector<Reach>& out);
-    Velocity<S>& motionOf(std::uint32_t body, std::vector<Reach>& out);
+    void hold(const Part& part, const Block<S>& block, const Row<S>& row);
+    void takeMotions(const Block<S>& block, std::vector<Reach>& out);
+    void takeMotions(const Part& part, std::vector<Reach>& out);
 
     std::vector<JointPositions<S>> joints_;
     std::vector<std::size_t> held_;
@@ -121,7 +120,7 @@ class JointNewton {
     std::vector<Part> parts_;
     std::vector<std::uint32_t> members_;     ///< indices of held_, part by part
     std::vector<std::uint32_t> partOfBody_;  ///< kNullIndex: none
-    std::vector<std::uint32_t> placeOf_;     ///< body -> its place among the motions that are being found
+    std::vector<Velocity<S>> motion_;        ///< motions of bodies that reach() finds; else zero
 };
 
 }  // namespace rigor::engine
