@@ -272,6 +272,53 @@ TEST(Repeat, CopiesBodiesAndJointsWithTheirNames) {
         testing::HasSubstr("[generator.unknown]"));
 }
 
+/// Each copy moves as a rigid body at first: no distance in it changes, its mean position rests, copies differ.
+TEST(Repeat, SpinsCopiesAsRigidBodies) {
+    const std::string chain = R"({"chain": {"name": "l", "links": 4, "link_length": 0.5, "origin": [0, 5, 0],
+        "direction": [1, 0, 0], "joint": "ball", "anchored": false, "body": )" +
+                              ballOf(0.1) + "}}";
+    const std::string repeat =
+        R"({"repeat": {"name": "c", "counts": [3, 1, 1], "spacing": [4, 0, 0], "generator": )";
+    const Scenario s = made(3, repeat + chain + R"(, "spin": 2, "seed": 7}})");
+    ASSERT_EQ(s.bodies.size(), 12u);
+    for (std::size_t copy = 0; copy < 3; ++copy) {
+        const Body* own = &s.bodies[4 * copy];
+        const Vec3 w = own->angularVelocity;
+        Vec3 mean;
+        for (std::size_t n = 0; n < 4; ++n) {
+            EXPECT_EQ(own[n].angularVelocity, w);
+            mean = mean + own[n].velocity;
+            const Vec3 apart = own[n].pose.position - own->pose.position;
+            EXPECT_LT(norm(own[n].velocity - own->velocity - cross(w, apart)), 1e-14);
+        }
+        EXPECT_LT(norm(mean), 1e-14);
+        EXPECT_GT(norm(own->velocity), 1e-3);
+        EXPECT_LE(std::max({std::abs(w.x), std::abs(w.y), std::abs(w.z)}), 2.0);
+        for (std::size_t other = 0; other < copy; ++other)
+            EXPECT_GT(norm(w - s.bodies[4 * other].angularVelocity), 1e-3);
+    }
+    EXPECT_THAT(problemOf(3, repeat + chain + R"(, "spin": 2}})"), testing::HasSubstr("seed"));
+}
+
+/// Velocities that bodies have stay, static bodies get none, and 2D has one component.
+TEST(Repeat, AddsTheSpinToTheVelocitiesOfDynamicBodies) {
+    const Scenario s =
+        made(2, R"({"repeat": {"name": "c", "counts": [2, 1], "spacing": [9, 0], "spin": 2, "seed": 7,
+        "generator": {"group": {"bodies": [
+            {"name": "left", "position": [-1, 3], "velocity": [5, 0], "angular_velocity": 4, "shapes": [{"circle": {"radius": 0.1}}]},
+            {"name": "right", "position": [1, 3], "shapes": [{"circle": {"radius": 0.1}}]},
+            {"name": "post", "type": "static", "position": [0, 7], "shapes": [{"circle": {"radius": 0.1}}]}]}}}})");
+    for (const std::string copy : {"c_0_0_", "c_1_0_"}) {
+        const Body &left = body(s, copy + "left"), &right = body(s, copy + "right");
+        const double w = right.angularVelocity.z;
+        EXPECT_GT(std::abs(w), 1e-3);
+        EXPECT_NEAR(left.angularVelocity.z, 4 + w, 1e-14);
+        EXPECT_LT(norm(right.velocity - Vec3{0, w, 0}), 1e-14);
+        EXPECT_LT(norm(left.velocity - Vec3{5, -w, 0}), 1e-14);
+        EXPECT_EQ(body(s, copy + "post").angularVelocity, Vec3{});
+    }
+}
+
 TEST(Group, IsWhatIsWrittenOutAndWhatGeneratorsMake) {
     const std::string group = R"({"group": {
         "bodies": [{"name": "post", "position": [0, 3, 0], "shapes": [{"sphere": {"radius": 0.1}}]}],
