@@ -12,7 +12,7 @@
 namespace rigor::scenario {
 namespace {
 
-/// Adds `by` to a vector of the file where it has one.
+/// Adds `by` to a vector of the file where it has one. What is no vector of numbers stays, for the reader to report.
 void add(Json& object, const char* key, const Vec3& by, int dimension) {
     if (!object.contains(key)) {
         object[key] = vectorJson(by, dimension);
@@ -20,7 +20,7 @@ void add(Json& object, const char* key, const Vec3& by, int dimension) {
     }
     const double d[3] = {by.x, by.y, by.z};
     Json& v = object[key];
-    for (std::size_t c = 0; c < v.size() && c < 3; ++c)
+    for (std::size_t c = 0; v.is_array() && c < v.size() && c < 3; ++c)
         if (v[c].is_number()) v[c] = v[c].get<double>() + d[c];
 }
 
@@ -30,7 +30,7 @@ bool isDynamic(const Json& body) {
 
 Vec3 positionOf(const Json& body) {
     double p[3] = {0, 0, 0};
-    if (const auto found = body.find("position"); found != body.end())
+    if (const auto found = body.find("position"); found != body.end() && found->is_array())
         for (std::size_t c = 0; c < found->size() && c < 3; ++c)
             if ((*found)[c].is_number()) p[c] = (*found)[c].get<double>();
     return {p[0], p[1], p[2]};
@@ -48,13 +48,12 @@ void spinTogether(std::span<Json> bodies, const Vec3& w, int dimension) {
     for (Json& body : bodies) {
         if (!isDynamic(body)) continue;
         add(body, "velocity", cross(w, positionOf(body) - sum * (1.0 / n)), dimension);
-        Json& turning = body["angular_velocity"];
-        if (dimension == 3 && !turning.is_null())
+        if (dimension == 3)
             add(body, "angular_velocity", w, 3);
-        else if (dimension == 3)
-            turning = vectorJson(w, 3);
-        else if (turning.is_null() || turning.is_number())
-            turning = (turning.is_null() ? 0.0 : turning.get<double>()) + w.z;
+        else if (!body.contains("angular_velocity"))
+            body["angular_velocity"] = w.z;
+        else if (Json& turning = body["angular_velocity"]; turning.is_number())
+            turning = turning.get<double>() + w.z;
     }
 }
 

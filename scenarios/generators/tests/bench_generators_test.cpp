@@ -317,6 +317,15 @@ TEST(Repeat, AddsTheSpinToTheVelocitiesOfDynamicBodies) {
         EXPECT_LT(norm(left.velocity - Vec3{5, -w, 0}), 1e-14);
         EXPECT_EQ(body(s, copy + "post").angularVelocity, Vec3{});
     }
+    for (const std::string bad :
+         {R"("position": "here")", R"("angular_velocity": "fast")", R"("velocity": 3)"})
+        EXPECT_THAT(
+            problemOf(2,
+                      R"({"repeat": {"name": "c", "counts": [1, 1], "spacing": [9, 0], "spin": 2, "seed": 7,
+        "generator": {"group": {"bodies": [{"name": "one", )" +
+                          bad + R"(, "shapes": [{"circle": {"radius": 0.1}}]}]}}}})"),
+            testing::HasSubstr("schema.type"))
+            << bad;
 }
 
 TEST(Group, IsWhatIsWrittenOutAndWhatGeneratorsMake) {
