@@ -9,6 +9,7 @@
 #include "engine/solvers/joints/row_coupling.hpp"
 
 namespace rigor::engine {
+
 template <class S>
 typename S::Real JointNewton<S>::errorOf(const JointPositions<S>& joint) {
     Real largest = 0;
