@@ -13,7 +13,7 @@ template <class S>
 void evaluateDistance(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
     out.clear();
     const typename S::Vec rA = rotate(A.q, joint.anchorA), rB = rotate(B.q, joint.anchorB);
-    const typename S::Vec d = (B.p - A.p) + (rB - rA);
+    const typename S::Vec d = (B.p + rB) - (A.p + rA);
     const typename S::Real distance = d.norm();
     const typename S::Vec u = distance > std::numeric_limits<typename S::Real>::min()
                                   ? typename S::Vec(d / distance)

@@ -37,7 +37,7 @@ template <class S>
 void addAnchorRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
     using Vec = typename S::Vec;
     const Vec rA = rotate(A.q, joint.anchorA), rB = rotate(B.q, joint.anchorB);
-    const Vec C = (B.p - A.p) + (rB - rA);
+    const Vec C = (B.p + rB) - (A.p + rA);
     // r x e_i for the axes e_i.
     for (int i = 0; i < S::dim; ++i) out.add(C[i]).lin[i] = typename S::Real(1);
     Row<S>* const row = &out.row[out.count - S::dim];
@@ -99,7 +99,7 @@ template <class S>
 struct Travel {
     typename S::Vec rA, rB, d;
     Travel(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B)
-        : rA(rotate(A.q, joint.anchorA)), rB(rotate(B.q, joint.anchorB)), d((B.p - A.p) + (rB - rA)) {}
+        : rA(rotate(A.q, joint.anchorA)), rB(rotate(B.q, joint.anchorB)), d((B.p + rB) - (A.p + rA)) {}
     void direct(const typename S::Vec& t, Row<S>& row) const {
         row.lin = t;
         row.angA = -cross(typename S::Vec(rA + d), t);

@@ -124,7 +124,7 @@ void JointSet<S>::countRows(const BodyArrays<S>& bodies, Record& record) {
     const bool always = joint.type == JointType::Distance || joint.type == JointType::SixDof;
     const AxisRowCount axes = joint.hasLimitOrMotor || always ? countAxisRows(joint) : AxisRowCount{};
     if (record.ownRows < 0) {
-        record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made_);
+        record.evaluateHere(bodies, made_);
         record.ownRows = made_.count - axes.rows;
         record.ownEqualities = made_.equalities - axes.equalities;
     }
@@ -182,7 +182,7 @@ void JointSet<S>::fillRows(const BodyArrays<S>& bodies, const JointStep<S>& step
     Joint<S>& joint = record.joint;
     // After a sub-step the coordinates are read here, at the end of a step by storeImpulses().
     made.reading = !step.begins && countsTurns(joint.type);
-    record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made);
+    record.evaluateHere(bodies, made);
     if (made.reading) std::copy_n(made.value.begin(), made.axes, joint.lastCoordinate.begin());
     made.reading = false;
     // A forged snapshot may say otherwise than the joint's axes do.
@@ -331,9 +331,9 @@ void JointSet<S>::renewBias(const BodyArrays<S>& bodies, const JointStep<S>& ste
                             std::span<const Velocity<S>> velocities, Record& record, Real fraction,
                             ConstraintRows<S>& rows) {
     const Block<S>& block = rows.blocks[record.block];
-    // Joints depend on the difference of positions alone. Relative to the first body it has no rounding of the place.
+    const typename S::Vec from = bodies.pose[record.origin(bodies)].p;
     const auto moved = [&](std::uint32_t i) -> Pose<S> {
-        return {(bodies.pose[i].p - bodies.pose[block.a].p) + step.h * velocities[i].v,
+        return {(bodies.pose[i].p - from) + step.h * velocities[i].v,
                 rotatedBy(bodies.pose[i].q, typename S::Ang(step.h * velocities[i].w))};
     };
     record.evaluate(record.joint, moved(block.a), moved(block.b), made_);
@@ -369,7 +369,7 @@ void JointSet<S>::storeImpulses(const BodyArrays<S>& bodies, const ConstraintRow
         record.reactionAngularImpulse += moment - cross(record.armB, force);
         if (!ends || !countsTurns(joint.type)) return;
         made.reading = true;
-        record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made);
+        record.evaluateHere(bodies, made);
         made.reading = false;
         std::copy_n(made.value.begin(), made.axes, joint.lastCoordinate.begin());
     };
@@ -385,7 +385,7 @@ int JointSet<S>::readCoordinates(const BodyArrays<S>& bodies, const Record& reco
     const Joint<S>& joint = record.joint;
     JointRows<S> made;
     made.reading = true;
-    record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made);
+    record.evaluateHere(bodies, made);
     for (std::size_t k = 0; k < static_cast<std::size_t>(made.axes); ++k) {
         value[k] = made.value[k];
         rate[k] = rowVelocity<S>(made.along[k], bodies.velocity[joint.a], bodies.velocity[joint.b]);

@@ -55,6 +55,19 @@ class JointSet {
         BiasChange<Real> change;    ///< when its bias was last re-linearised
         std::uint32_t updates = 0;  ///< number of re-linearisations in this (sub-)step
         bool linear = false;        ///< its rows stay as they were at the start of the (sub-)step
+        /// The body that positions count from when the joint is evaluated, one that moves. Joints depend on the difference
+        /// of positions alone, which has no rounding of the place then.
+        std::uint32_t origin(const BodyArrays<S>& bodies) const {
+            return bodies.invMass[joint.a] > 0 ? joint.a : joint.b;
+        }
+        /// Evaluates the joint where the bodies are.
+        void evaluateHere(const BodyArrays<S>& bodies, JointRows<S>& out) const {
+            const typename S::Vec from = bodies.pose[origin(bodies)].p;
+            const auto here = [&](std::uint32_t i) -> Pose<S> {
+                return {bodies.pose[i].p - from, bodies.pose[i].q};
+            };
+            evaluate(joint, here(joint.a), here(joint.b), out);
+        }
         /// Iterations that change it can have converged; that is not required of two or three.
         bool isIterated() const { return updates >= 4; }
     };

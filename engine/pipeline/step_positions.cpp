@@ -40,7 +40,7 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
     if (bodies_.invMass[a] == 0 && bodies_.invMass[b] == 0) return;  // asleep
     if (record.islands == IslandSize::Large) return;                 // their joints are linearised
     if (!only_.empty() && !only_[a] && !only_[b]) return;
-    record.evaluate(record.joint, bodies_.pose[a], bodies_.pose[b], made);
+    record.evaluateHere(bodies_, made);
     const auto count = static_cast<std::size_t>(made.count);
     if (out.row.size() < count) out.row.resize(count);
     out.block.kind = BlockKind::Joint;

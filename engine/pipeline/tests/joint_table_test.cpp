@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/pipeline/tests/scene.hpp"
 
@@ -263,6 +264,37 @@ TYPED_TEST(JointTable, SixDofIsEachOfTheOthers) {
         }
         EXPECT_LT(apart, tol<S>(2e-5, 2e-3)) << findJoint<S>(c.type).name;
         EXPECT_GT(moved, 0.5);
+    }
+}
+
+/// Far from the origin joints are as exact as near it: places have rounding, their differences have none.
+TYPED_TEST(JointTable, WhatAJointIsOffHasNoRoundingOfThePlace) {
+    using S = TypeParam;
+    using Vec = typename S::Vec;
+    using R = typename S::Real;
+    const double place = 1024;
+    for (const JointType type : {JointType::Ball, JointType::Slider, JointType::Distance}) {
+        BodyArrays<S> bodies;
+        bodies.pose = {{Vec::Zero(), expMap(zeroAng<S>())},
+                       {at3<S>(place, place, 0), expMap(tumble<S>(0.3, 0.2, 0.7))}};
+        bodies.invMass = {0, 1};
+        JointDef<S> def;
+        def.type = type;
+        def.anchorA = at3<S>(place + 0.5, place + 0.25, 0);
+        def.anchorB = at3<S>(0.3, 0.4, 0);
+        def.length = R(0.5);
+        typename JointSet<S>::Record record;
+        record.joint = makeJoint<S>(def, bodies.pose[0], Vec::Zero(), bodies.pose[1], Vec::Zero());
+        record.joint.b = 1;
+        record.evaluate = findJoint<S>(type).evaluate;
+        JointRows<S> far, near;
+        record.evaluateHere(bodies, far);
+        bodies.pose[1].p = Vec::Zero();
+        record.joint.anchorA -= at3<S>(place, place, 0);
+        record.evaluateHere(bodies, near);
+        ASSERT_EQ(far.count, near.count);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(far.count); ++i)
+            EXPECT_NEAR(far.error[i], near.error[i], 4 * std::numeric_limits<R>::epsilon()) << i;
     }
 }
 
