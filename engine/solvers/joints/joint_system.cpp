@@ -20,7 +20,9 @@
 // error this leaves elsewhere goes with repeated solves for what is left: each multiplies it by
 // epsilon / (epsilon + sigma), for sigma the row's relative stiffness (proximal point method). epsilon is the
 // precision to the power 2/3: 3.7e-11 and 2.4e-5. Cholesky's rounding stays far below that whatever K is
-// [GolubVanLoan2013, section 4.2]. That of inverses of the blocks on the diagonal would not: it is multiplied
+// [GolubVanLoan2013, section 4.2]. Where few loops close, it is 1e-9 at least: rows that are
+// redundant in a plane are not quite so where bodies have left it, and impulses grow to what that takes (1e6 N s under a truck
+// of 1.3 t on a bridge of planks, 3e3 N s with it). That of inverses of the blocks on the diagonal would not: it is multiplied
 // by up to 1 / epsilon, and flat nets of 5 x 5 bodies and more lose all their digits.
 //
 // Cost: sum over the columns of L of (blocks in it)^2 / 2 products of blocks: of a square net of n balls some
@@ -137,8 +139,7 @@ void JointSystem<S>::assemble(std::span<const Item> items, const Part& part) {
 
 /// The pivot with its shift, a fraction of K's diagonal before elimination; returns the floor of the pivot.
 template <class S>
-typename S::Real JointSystem<S>::shiftPivot(Real& pivot) {
-    constexpr Real epsilon = sizeof(Real) == sizeof(float) ? Real(2.4e-5) : Real(3.7e-11);
+typename S::Real JointSystem<S>::shiftPivot(Real& pivot, Real epsilon) {
     const Real shift = std::max(pivot * epsilon, std::numeric_limits<Real>::min());
     pivot += shift;
     return shift / 2;
@@ -154,7 +155,7 @@ void JointSystem<S>::factorFronts(std::span<const Item> items, const Part& part)
         const std::size_t stride = fronts.stride(k);
         Real* const m = numbers + fronts.placeOf(k, k);
         addDiagonal<N>(items[item_[part.first + k]], m, stride);
-        for (std::size_t i = 0; i < N; ++i) *floor++ = shiftPivot(m[i * stride + i]);
+        for (std::size_t i = 0; i < N; ++i) *floor++ = shiftPivot(m[i * stride + i], kShift);
     }
     for (std::size_t k = part.coupling; k < part.lastCoupling; ++k) {
         const Coupling& coupling = couplings_[k];
@@ -178,22 +179,30 @@ JointPart<typename S::Real> JointSystem<S>::kernelPart(const Part& part) {
             lower_.data() + part.lower};
 }
 
+/// A chain or a tree that hangs on one fixed body has fewer couplings than items, and no redundant rows; a bridge
+/// between two has one loop. In large parts of many loops, as flat nets, the directions that K hardly sees matter,
+/// of which each solve without the excess gains less.
+template <class S>
+bool JointSystem<S>::hasFewLoops(const Part& part) {
+    const std::size_t items = part.last - part.first, couplings = part.lastCoupling - part.coupling;
+    const std::size_t anchors = std::max<std::size_t>(part.fixed, 1);
+    const bool isTree = couplings < items && anchors == 1;
+    return !isTree && (items <= kMechanism || couplings + anchors <= items + 1);
+}
+
 template <class S>
 void JointSystem<S>::eliminate(const Part& part) {
     const auto size = static_cast<std::size_t>(part.size);
     const auto pad = static_cast<std::size_t>(paddedRows<Real>(part.size));
     Real *const diagonal = diagonal_.data() + part.diagonal, *const x = x_.data() + part.x;
-    for (std::size_t k = 0; k < part.last - part.first; ++k)
+    const std::size_t items = part.last - part.first;
+    const bool mayBeRedundant = hasFewLoops(part);
+    for (std::size_t k = 0; k < items; ++k)
         for (std::size_t i = 0; i < size; ++i)
-            x[k * pad + i] = shiftPivot(diagonal[(k * size + i) * pad + i]);
+            x[k * pad + i] =
+                shiftPivot(diagonal[(k * size + i) * pad + i], mayBeRedundant ? kLoopShift : kShift);
     factorPart(kernelPart(part), x);
-    // A chain or a tree that hangs on one fixed body has fewer couplings than items, and no redundant rows; a bridge
-    // between two has one loop. In large parts of many loops, as flat nets, the directions that K hardly sees matter,
-    // of which each solve without the excess gains less.
-    const std::size_t items = part.last - part.first, couplings = part.lastCoupling - part.coupling;
-    const std::size_t anchors = std::max<std::size_t>(part.fixed, 1);
-    const bool isTree = couplings < items && anchors == 1;
-    if (isTree || (items > kMechanism && couplings + anchors > items + 1)) return;
+    if (!mayBeRedundant) return;
     // A pivot of which the shift is a large part belongs to a row that others make redundant. The diagonal has the
     // reciprocals of the pivots' roots now, x half their shifts.
     bool redundant = false;

@@ -4,6 +4,7 @@
 // All blocks of equality rows at once, by a direct method: see joint_system.cpp.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -58,6 +59,9 @@ class JointSystem {
         8;  ///< largest number of items of a part with several loops that is looked at for redundant rows
     static constexpr Real kMostShift =
         Real(100);  ///< pivots of redundant rows are less than this times their shift
+    /// Fraction of K's diagonal on top of it, and in parts of few loops.
+    static constexpr Real kShift = sizeof(Real) == sizeof(float) ? Real(2.4e-5) : Real(3.7e-11);
+    static constexpr Real kLoopShift = std::max(kShift, Real(1e-9));
     static constexpr std::size_t kGrain = 8;  ///< parts: one takes some microseconds
     /// Items, and products of blocks per item, from which dense fronts are faster than blocks.
     static constexpr std::size_t kMinFrontItems = 60, kLongColumns = 24;
@@ -102,7 +106,8 @@ class JointSystem {
     static void addDiagonal(const Item& item, Real* m, std::size_t stride);
     static void addCoupling(const Coupling& coupling, std::span<const Item> items, Real* m,
                             std::size_t stride);
-    static Real shiftPivot(Real& pivot);
+    static Real shiftPivot(Real& pivot, Real epsilon);
+    static bool hasFewLoops(const Part& part);
     void eliminate(const Part& part);
     void dropRedundant(const Part& part, std::size_t n, Real* x);
     JointPart<Real> kernelPart(const Part& part);

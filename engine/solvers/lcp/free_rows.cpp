@@ -17,7 +17,8 @@ double dot(const double* a, const double* b, std::size_t n) {
 
 }  // namespace
 
-bool FreeRows::eliminate(const AssembledProblem& whole) {
+bool FreeRows::eliminate(const AssembledProblem& whole, double shift) {
+    shift_ = shift;
     separate(whole);
     if (free_.empty() || others_.empty() || !factor(whole)) return false;
     complement(whole);
@@ -54,6 +55,7 @@ bool FreeRows::factor(const AssembledProblem& whole) {
     first_.clear();
     start_.clear();
     factor_.clear();
+    redundant_ = false;
     for (std::size_t i = 0; i < free_.size(); ++i) {
         std::size_t first = 0;
         while (first < i && whole.at(free_[i], free_[first]) == 0) ++first;
@@ -61,7 +63,8 @@ bool FreeRows::factor(const AssembledProblem& whole) {
         start_.push_back(factor_.size());
         for (std::size_t j = first; j <= i; ++j) factor_.push_back(whole.at(free_[i], free_[j]));
         double* row = factor_.data() + start_[i];
-        row[i - first] *= 1 + kShift;
+        const double own = row[i - first];
+        row[i - first] *= 1 + shift_;
         for (std::size_t j = first; j <= i; ++j) {
             const std::size_t from = std::max(first, first_[j]);
             const double* other = factor_.data() + start_[j];
@@ -72,19 +75,24 @@ bool FreeRows::factor(const AssembledProblem& whole) {
             } else {
                 if (!(rest > 0)) return false;
                 row[j - first] = std::sqrt(rest);
+                redundant_ = redundant_ || rest < kMostShift * shift_ * own;
             }
         }
     }
     return true;
 }
 
-/// x := W_ee^-1 x.
-void FreeRows::solve(double* x) const {
-    for (std::size_t i = 0; i < free_.size(); ++i) {
+/// x := L^-1 x, where x is zero before `from`.
+void FreeRows::solveLower(double* x, std::size_t from) const {
+    for (std::size_t i = from; i < free_.size(); ++i) {
         const double* row = factor_.data() + start_[i];
-        const std::size_t length = i - first_[i];
-        x[i] = (x[i] - dot(row, x + first_[i], length)) / row[length];
+        const std::size_t begin = std::max(first_[i], from);
+        x[i] = (x[i] - dot(row + (begin - first_[i]), x + begin, i - begin)) / row[i - first_[i]];
     }
+}
+
+/// x := L^-T x.
+void FreeRows::solveUpper(double* x) const {
     for (std::size_t i = free_.size(); i-- > 0;) {
         const double* row = factor_.data() + start_[i];
         const std::size_t length = i - first_[i];
@@ -95,22 +103,27 @@ void FreeRows::solve(double* x) const {
 
 void FreeRows::complement(const AssembledProblem& whole) {
     const std::size_t n = others_.size(), m = free_.size();
-    coupling_.resize(n * m);
-    for (std::size_t c = 0; c < n; ++c)
-        for (std::size_t e = 0; e < m; ++e) coupling_[c * m + e] = whole.at(others_[c], free_[e]);
-    follow_.assign(coupling_.begin(), coupling_.end());
-    for (std::size_t c = 0; c < n; ++c) solve(follow_.data() + c * m);
+    half_.resize(n * m);
+    begin_.resize(n);
+    for (std::size_t c = 0; c < n; ++c) {
+        double* const half = half_.data() + c * m;
+        for (std::size_t e = 0; e < m; ++e) half[e] = whole.at(others_[c], free_[e]);
+        begin_[c] =
+            static_cast<std::size_t>(std::find_if(half, half + m, [](double x) { return x != 0; }) - half);
+        solveLower(half, begin_[c]);
+    }
     reduced_.W.resize(n * n);
     reduced_.own.resize(n);
     for (std::size_t c = 0; c < n; ++c) {
         for (std::size_t d = 0; d <= c; ++d) {
-            const double rest =
-                whole.at(others_[c], others_[d]) - dot(coupling_.data() + c * m, follow_.data() + d * m, m);
+            const std::size_t begin = std::max(begin_[c], begin_[d]);
+            const double rest = whole.at(others_[c], others_[d]) -
+                                dot(half_.data() + c * m + begin, half_.data() + d * m + begin, m - begin);
             reduced_.W[c * n + d] = reduced_.W[d * n + c] = rest;
         }
         const double own = whole.at(others_[c], others_[c]);
         reduced_.own[c] = own;
-        reduced_.W[c * n + c] = std::max(reduced_.W[c * n + c], 0.0) + kShift * own;
+        reduced_.W[c * n + c] = std::max(reduced_.W[c * n + c], 0.0) + shift_ * own;
     }
     reduced_.q.resize(n);
     reduced_.lambda.resize(n);
@@ -122,10 +135,11 @@ void FreeRows::complement(const AssembledProblem& whole) {
 const AssembledProblem& FreeRows::reduce(const AssembledProblem& whole) {
     const std::size_t n = others_.size(), m = free_.size();
     for (std::size_t e = 0; e < m; ++e) rest_[e] = whole.w[free_[e]];
-    solve(rest_.data());
+    solveLower(rest_.data(), 0);
     for (std::size_t c = 0; c < n; ++c) reduced_.lambda[c] = whole.lambda[others_[c]];
     for (std::size_t c = 0; c < n; ++c)
-        reduced_.q[c] = whole.w[others_[c]] - dot(coupling_.data() + c * m, rest_.data(), m) -
+        reduced_.q[c] = whole.w[others_[c]] -
+                        dot(half_.data() + c * m + begin_[c], rest_.data() + begin_[c], m - begin_[c]) -
                         dot(reduced_.W.data() + c * n, reduced_.lambda.data(), n);
     return reduced_;
 }
@@ -135,22 +149,25 @@ void FreeRows::expand(const AssembledProblem& whole, const std::vector<double>& 
     const std::size_t m = free_.size();
     all.resize(whole.n);
     for (std::size_t c = 0; c < others_.size(); ++c) all[others_[c]] = others[c];
-    for (std::size_t e = 0; e < m; ++e) {
-        change_[e] = -rest_[e];
-        for (std::size_t c = 0; c < others_.size(); ++c)
-            change_[e] -= follow_[c * m + e] * (others[c] - reduced_.lambda[c]);
+    for (std::size_t e = 0; e < m; ++e) change_[e] = -rest_[e];
+    for (std::size_t c = 0; c < others_.size(); ++c) {
+        const double changed = others[c] - reduced_.lambda[c];
+        const double* const half = half_.data() + c * m;
+        for (std::size_t e = begin_[c]; e < m; ++e) change_[e] -= changed * half[e];
     }
-    dropContradictions(whole);
+    solveUpper(change_.data());
+    if (redundant_) dropContradictions(whole);
     for (std::size_t e = 0; e < m; ++e) all[free_[e]] = whole.lambda[free_[e]] + change_[e];
 }
 
 /// Takes from d_e the directions that W_ee does not see: (W_ee + D)^-1 W_ee d_e, D the shift. Where free rows contradict
-/// each other they would leave 1 / kShift times what no impulse can change. The second pass takes the rounding of the first.
+/// each other they would leave 1 / shift times what no impulse can change. The second pass takes the rounding of the first.
 void FreeRows::dropContradictions(const AssembledProblem& whole) {
     for (int pass = 0; pass < 2; ++pass) {
         for (std::size_t e = 0; e < free_.size(); ++e)
-            excess_[e] = kShift * whole.at(free_[e], free_[e]) * change_[e];
-        solve(excess_.data());
+            excess_[e] = shift_ * whole.at(free_[e], free_[e]) * change_[e];
+        solveLower(excess_.data(), 0);
+        solveUpper(excess_.data());
         for (std::size_t e = 0; e < free_.size(); ++e) change_[e] -= excess_[e];
     }
 }

@@ -69,8 +69,8 @@ class BlockGaussSeidel final : public Solver<S> {
         stalled_.assign(parts_.count(), 0);
         ended_.assign(parts_.count(), 0);
         impact_.assign(parts_.count(), 0);
-        before_.assign(parts_.count(), std::numeric_limits<Real>::max());
-        last_.assign(parts_.count(), std::numeric_limits<Real>::max());
+        before_.assign(parts_.count(), kUnknown);
+        last_.assign(parts_.count(), kUnknown);
         found_.resize(groups_.size());
         for (int i = 0; i < input.iterations; ++i) {
             renewBiases(input, i);
@@ -122,9 +122,9 @@ class BlockGaussSeidel final : public Solver<S> {
         bool all = true;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
             const Real change = changeOf(part);
-            solved_[part] =
-                change < tolerance || (tolerance > 0 && mayBeRounding(change) &&
-                                       change < resolution(input, part, change > Real(0.5) * last_[part]));
+            const Real gain = last_[part] < kUnknown ? last_[part] / change : Real(2);
+            solved_[part] = change < tolerance || (tolerance > 0 && mayBeRounding(change) &&
+                                                   change < resolution(input, part, gain));
             last_[part] = change;
             all = all && solved_[part] != 0;
         }
@@ -153,17 +153,12 @@ class BlockGaussSeidel final : public Solver<S> {
             collectBlocks(input.constraints.blocks, part, std::numeric_limits<std::size_t>::max());
             const PartRows rows = rowsOf(input);
             const Real change = changeOf(part), before = std::exchange(before_[part], change);
-            if (mayShorten(part) && rows.mixesJoints() && change > kStalled * before)
-                solved_[part] = stalled_[part] = 1;
+            if (rows.mixesJoints() && change > kStalled * before) solved_[part] = stalled_[part] = 1;
             if (!rows.ofJoints && input.monitor.tolerance() > 0 && change > kHovers * before &&
-                mayBeRounding(change) && change < kPositions * resolution(input, part, true))
+                mayBeRounding(change) && change < kPositions * roundingOf(input, part))
                 solved_[part] = 1;
         }
     }
-
-    /// Sweeps over joints and contacts may end early, or in Newton's method. Not in single precision where joints form closed
-    /// loops: a bridge under a truck would take a fifth of the truck's energy in four seconds.
-    bool mayShorten(std::size_t part) const { return sizeof(Real) > sizeof(float) || looped_[part] == 0; }
 
     /// Residual of a part before its last sweep.
     Real changeOf(std::size_t part) const {
@@ -172,26 +167,39 @@ class BlockGaussSeidel final : public Solver<S> {
         return change;
     }
 
+    /// Joints alone, without a closed loop: each sweep solves them at once.
+    bool isTreeOfJoints(const SolverInput<S>& input, std::size_t part) const {
+        const std::span<const std::uint32_t> units = parts_.units(part);
+        return looped_[part] == 0 && units.size() == 1 &&
+               isJoint(input.constraints.blocks[groups_[units.front()]]);
+    }
+
     /// False: more than the rounding of 1000 m/s.
     static bool mayBeRounding(Real change) {
         return change < Real(32e3) * std::numeric_limits<Real>::epsilon();
     }
 
-    /// Residual below which rounding has been reached in a part. Biases of joints are renewed from positions, whose
-    /// rounding a solver does not know. A part of joints alone is solved at once in each sweep: what is left is rounding
-    /// where sweeps no longer halve it (`settled`). With contacts beside the joints, rounding of velocities
-    /// counts from there on. Closed loops of joints get as near as they can.
-    Real resolution(const SolverInput<S>& input, std::size_t part, bool settled) const {
-        const std::span<const std::uint32_t> units = parts_.units(part);
-        settled = settled && looped_[part] == 0;
+    /// Residual below which rounding has been reached in a part, where `gain` is how much nearer the last sweep has brought
+    /// it (2: unknown). Biases of joints are renewed from positions, whose rounding a solver does not know. A part of joints alone is
+    /// solved at once in each sweep: what is left is rounding where sweeps no longer halve it, and where the next one would
+    /// get below that of velocities. With contacts beside the joints, rounding of velocities counts from where sweeps no
+    /// longer halve the residual. Closed loops of joints get as near as they can.
+    Real resolution(const SolverInput<S>& input, std::size_t part, Real gain) const {
+        const bool settled = gain < 2 && looped_[part] == 0;
+        if (isTreeOfJoints(input, part))
+            return settled ? std::numeric_limits<Real>::max() : gain * roundingOf(input, part);
         const auto isOfJoints = [&](std::uint32_t unit) {
             return isJoint(input.constraints.blocks[groups_[unit]]);
         };
+        const std::span<const std::uint32_t> units = parts_.units(part);
         if (!settled && std::any_of(units.begin(), units.end(), isOfJoints)) return 0;
-        if (settled && units.size() == 1 && isOfJoints(units.front()))
-            return std::numeric_limits<Real>::max();
+        return roundingOf(input, part);
+    }
+
+    /// Rounding of the velocities of a part.
+    Real roundingOf(const SolverInput<S>& input, std::size_t part) const {
         Real largest = 0;
-        for (const std::uint32_t group : units)
+        for (const std::uint32_t group : parts_.units(part))
             for (std::uint32_t k = groups_[group]; k < groups_[group + 1]; ++k)
                 largest = std::max(largest, blockResolution<S>(input.constraints, input.constraints.blocks[k],
                                                                input.velocities));
@@ -204,9 +212,8 @@ class BlockGaussSeidel final : public Solver<S> {
         bool renewed = false;
         Real worst = -1;
         for (std::size_t part = 0; part < parts_.count(); ++part) {
-            if (ended_[part]) continue;
+            if (ended_[part] || (solved_[part] && isTreeOfJoints(input, part))) continue;
             if (!collectBlocks(input.constraints.blocks, part, PartFinish<S>::kMostRows)) continue;
-            if (!mayShorten(part) && rowsOf(input).mixesJoints()) continue;
             if (!std::exchange(renewed, true)) input.monitor.before(input.velocities);
             const auto left = PartFinish<S>::residualOf(input, blocks_);
             if (left.found <= left.goal) continue;
@@ -226,9 +233,10 @@ class BlockGaussSeidel final : public Solver<S> {
                 continue;
             const PartRows rows = rowsOf(input);
             if (rows.besideEqualities == 0 || rows.besideEqualities > PartFinish<S>::kFewRows) continue;
-            if (!mayShorten(part) && rows.ofJoints) continue;
             input.monitor.before(input.velocities, blocks_);
-            const auto left = PartFinish<S>::residualOf(input, blocks_);
+            auto left = PartFinish<S>::residualOf(input, blocks_);
+            if (looped_[part] && rows.ofJoints)
+                left.goal = std::max(left.goal, kLoopsGoal * input.monitor.tolerance());
             if (left.found > left.goal) {
                 finish_.putInOrder(input, blocks_);
                 const Real reached = finish_.solve(input, blocks_, left);
@@ -240,8 +248,8 @@ class BlockGaussSeidel final : public Solver<S> {
         }
     }
 
-    /// Rows of closed loops may contradict each other by more than the tolerance. What Newton's method then leaves of such
-    /// a part, sweeps hardly bring nearer, nor does a second attempt.
+    /// Rows of closed loops may contradict each other by more than the tolerance, and by more than kLoopsGoal. What Newton's
+    /// method then leaves of such a part, sweeps hardly bring nearer, nor does a second attempt.
     void endLoops(const SolverInput<S>& input, std::size_t part, Real reached) {
         if (looped_[part] && reached < kLoopsEnd * input.monitor.tolerance())
             solved_[part] = ended_[part] = 1;
@@ -331,6 +339,8 @@ class BlockGaussSeidel final : public Solver<S> {
         return largest;
     }
 
+    static constexpr Real kUnknown =
+        std::numeric_limits<Real>::max();  ///< residual of a sweep before the first
     static constexpr int kPlainSweeps =
         2;  ///< before conjugate gradients: most parts of scenes at rest need no more
     static constexpr int kEarlyIterations = 6;  ///< sweeps before Newton's method takes the smallest parts
@@ -341,7 +351,8 @@ class BlockGaussSeidel final : public Solver<S> {
     static constexpr Real kHovers = Real(0.9);  ///< the same of contacts alone
     static constexpr Real kPositions =
         Real(64);  ///< rounding of positions, as a multiple of that of velocities
-    static constexpr Real kLoopsEnd = Real(1e3);  ///< multiple of the tolerance
+    /// Multiples of the tolerance: where Newton's method ends over closed loops, and where sweeps do not go on after it.
+    static constexpr Real kLoopsGoal = Real(64), kLoopsEnd = Real(1e3);
     static constexpr int kFinishIterations = 30;  ///< fewer than that are too few to sort contacts by
     /// Multiple of the tolerance: faster than what gravity does in a step to stacks that nothing holds yet.
     static constexpr Real kImpact = Real(2e6);

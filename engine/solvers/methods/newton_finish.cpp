@@ -33,7 +33,7 @@ template <class S>
 void NewtonFinish<S>::assemble(const SolverInput<S>& input) {
     if (assembled_) return;
     problem_.assemble<S>(input.constraints, input.velocities.size());
-    eliminated_ = joints_.eliminate(problem_);
+    eliminated_ = joints_.eliminate(problem_, kJointShift);
     assembled_ = true;
 }
 
@@ -51,7 +51,7 @@ typename S::Real NewtonFinish<S>::attempt(const SolverInput<S>& input, Real resi
     assemble(input);
     best_.save(input);
     Real best = residual;
-    double damping = kLeastDamping;
+    double damping = kLeastDamping, least = kLeastDamping;
     int astray = 0, fruitless = 0;
     for (int step = 0; step < steps && best > goal && fruitless <= kMostFruitless; ++step) {
         problem_.readVelocities<S>(input.constraints, input.velocities);
@@ -62,14 +62,16 @@ typename S::Real NewtonFinish<S>::attempt(const SolverInput<S>& input, Real resi
             best = reached;
             astray = fruitless = 0;
             best_.save(input);
-            damping = std::max(kLeastDamping, 1e-2 * damping);
+            damping = std::max(least, 1e-2 * damping);
             continue;
         }
+        if (eliminated_ && reached < kStill * best) break;
         ++fruitless;
         if (!(reached < kLost * best) || ++astray > 2) {
             best_.restore(input);
             input.monitor.before(input.velocities);
             damping *= 100;
+            if (eliminated_) damping = least = std::max(damping, kJointDamping);
             astray = 0;
             if (damping > kMostDamping) break;
         }

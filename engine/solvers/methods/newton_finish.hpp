@@ -50,7 +50,13 @@ class NewtonFinish {
     static constexpr Real kLost = Real(100);  ///< residual over the best from which there is no way back
     /// Steps in a row that come no nearer. Hardly an attempt that makes more of them ends well.
     static constexpr int kMostFruitless = 6;
+    /// Residual over the best: the step has come to where the one before it was.
+    static constexpr Real kStill = Real(1.1);
     static constexpr double kLeastDamping = 1e-10, kMostDamping = 1e-2;  ///< ContactNewton's sigma
+    /// The least after a step that went astray, where joints take nearly all mobility from contacts.
+    static constexpr double kJointDamping = 1e-4;
+    /// Single precision: far above the rounding of rows.
+    static constexpr double kJointShift = sizeof(Real) == sizeof(float) ? 2.4e-5 : FreeRows::kShift;
     AssembledProblem problem_;
     ContactNewton newton_;
     ContactInterior interior_;

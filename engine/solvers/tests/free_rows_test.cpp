@@ -17,12 +17,14 @@
 namespace rigor::engine::test {
 namespace {
 
-/// Rows 3 k + 2 are bounded, the others free; W = G G^T with `columns` random columns in G.
-AssembledProblem randomProblem(std::size_t n, std::size_t columns, unsigned seed) {
+/// Rows 3 k + 2 are bounded, the others free; W = G G^T with `columns` random columns in G, and 1e-7 times as much that is
+/// random, as single precision leaves, in as many more as there are rows, if `rounded`.
+AssembledProblem randomProblem(std::size_t n, std::size_t columns, unsigned seed, bool rounded = false) {
     std::mt19937 random(seed);
     std::normal_distribution<double> u;
-    Eigen::MatrixXd G(n, columns);
+    Eigen::MatrixXd G(n, columns + (rounded ? n : 0));
     for (Eigen::Index i = 0; i < G.size(); ++i) G.data()[i] = u(random);
+    G.rightCols(G.cols() - Eigen::Index(columns)) *= 1e-7;
     const Eigen::MatrixXd W = G * G.transpose();
     AssembledProblem p;
     p.n = n;
@@ -118,6 +120,27 @@ TEST(FreeRows, ContradictionsTakeNoImpulse) {
         }
         EXPECT_LT(left, before);
         EXPECT_GT(left, 1e-3 * before) << "nothing contradicts";
+    }
+}
+
+/// The same where rounding to single precision has made the 12 rows independent: a shift far below it lets impulses grow to
+/// what mends their contradictions through the rounding alone.
+TEST(FreeRows, RoundedContradictionsTakeNoImpulse) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const AssembledProblem p = randomProblem(18, 8, seed, true);
+        const auto largest = [&](double shift) {
+            FreeRows free;
+            EXPECT_TRUE(free.eliminate(p, shift));
+            std::vector<double> others, all;
+            for (std::size_t i = 2; i < p.n; i += 3) others.push_back(p.lambda[i]);
+            free.reduce(p);
+            free.expand(p, others, all);
+            double most = 0;
+            for (const double impulse : all) most = std::max(most, std::abs(impulse));
+            return most;
+        };
+        EXPECT_LT(largest(2.4e-5), 100) << seed;
+        EXPECT_GT(largest(1e-15), 1e4) << seed << ": the shift decides";
     }
 }
 
