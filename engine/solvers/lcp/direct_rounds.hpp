@@ -33,17 +33,24 @@ class DirectRounds : public Solver<S> {
         problem_.assemble<S>(input.constraints, input.velocities.size());
         begin(input);
         bool converged = false;
+        double least = std::numeric_limits<double>::infinity();
         for (int round = 0;; ++round) {
             input.monitor.before(input.velocities);
             problem_.readVelocities<S>(input.constraints, input.velocities);
             problem_.findOffsets();
-            converged = round > 0 && residual() <= tolerance(input);
+            const double left = round > 0 ? residual() : least;
+            converged = left <= tolerance(input);
+            if (left < least) {
+                least = left;
+                best_ = x_;
+            }
             if (converged || round == input.iterations || isHopeless()) break;
             improve(input, round);
             const double change = setImpulses(input, x_);
             input.monitor.after(input.velocities, static_cast<Real>(change));
         }
         gaveUp_ = gaveUp_ || !converged;
+        if (!converged && std::isfinite(least)) setImpulses(input, best_);
     }
 
   protected:
@@ -71,6 +78,8 @@ class DirectRounds : public Solver<S> {
         return std::max(static_cast<double>(input.residualTolerance),
                         std::min(32 * eps * (largest + fastest), std::sqrt(eps) * fastest));
     }
+
+    std::vector<double> best_;  ///< impulses of the round that came nearest
 };
 
 }  // namespace rigor::engine
