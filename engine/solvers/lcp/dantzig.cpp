@@ -25,7 +25,7 @@
 // Cost: O(n^3) in the first step, after that rounds * n^2 plus one factorisation while the sets last.
 // Known limits: hundreds of rows, not thousands; up to sqrt(2) times Coulomb's friction diagonal to the
 // tangents. Where pivoting gives up or the rounds do not converge (strong friction in wedges has problems
-// without solution on the pyramid), gaveUp() says so: the last round's impulses stand, improved by projected
+// without solution on the pyramid), gaveUp() says so: the nearest round's impulses stand, improved by projected
 // Gauss-Seidel sweeps if it was the pivoting.
 #include <algorithm>
 #include <cmath>

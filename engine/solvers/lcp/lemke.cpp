@@ -24,8 +24,8 @@
 //
 // Cost: O(N^3), N = (D + 2) per contact, in every step: pivoting knows no warm start.
 // Known limits: a hundred contacts, not more. Where the method ends in a ray or rounding ruins its solution,
-// gaveUp() says so, and the last impulses stand, improved by projected Gauss-Seidel sweeps over normals,
-// bounds and (as a box) friction.
+// gaveUp() says so, and the last impulses are improved by projected Gauss-Seidel sweeps over normals,
+// bounds and (as a box) friction; what came nearest stands (direct_rounds.hpp).
 #include <algorithm>
 #include <cmath>
 

@@ -180,10 +180,10 @@ class BlockGaussSeidel final : public Solver<S> {
     }
 
     /// Residual below which rounding has been reached in a part, where `gain` is how much nearer the last sweep has brought
-    /// it (2: unknown). Biases of joints are renewed from positions, whose rounding a solver does not know. A part of joints alone is
-    /// solved at once in each sweep: what is left is rounding where sweeps no longer halve it, and where the next one would
-    /// get below that of velocities. With contacts beside the joints, rounding of velocities counts from where sweeps no
-    /// longer halve the residual. Closed loops of joints get as near as they can.
+    /// it (2: unknown). Biases of joints are renewed from positions, whose rounding a solver does not know. A part of joints
+    /// alone is solved at once in each sweep: what is left is rounding where sweeps no longer halve it, and where the next
+    /// one would get below that of velocities. With contacts beside the joints, rounding of velocities counts from where
+    /// sweeps no longer halve the residual. Closed loops of joints get as near as they can.
     Real resolution(const SolverInput<S>& input, std::size_t part, Real gain) const {
         const bool settled = gain < 2 && looped_[part] == 0;
         if (isTreeOfJoints(input, part))
