@@ -56,6 +56,12 @@ typename S::Real look(const MovingShape<S>& a, const MovingShape<S>& b, typename
     return out.closest.distance;
 }
 
+/// The sum of two shapes' inscribed radii; that of a half-space, which has none, does not count.
+template <class R>
+R jointThickness(R a, R b) {
+    return std::max(a, b) < std::numeric_limits<R>::max() / 2 ? a + b : std::min(a, b);
+}
+
 /// The time where the distance falls to `gap` between lo, where it is more, and hi, where it is less.
 template <class S>
 void bisect(const MovingShape<S>& a, const MovingShape<S>& b, typename S::Real lo, typename S::Real hi,
@@ -90,8 +96,7 @@ TimeOfImpact<S> timeOfImpact(const MovingShape<S>& a, const MovingShape<S>& b, t
                              bool known) {
     using Real = typename S::Real;
     const Real gap = touchingGap<S>(a, b);
-    const Real thickness = std::min(a.inscribedRadius, std::numeric_limits<Real>::max() / 4) +
-                           std::min(b.inscribedRadius, std::numeric_limits<Real>::max() / 4);
+    const Real thickness = jointThickness(a.inscribedRadius, b.inscribedRadius);
     TimeOfImpact<S> out;
     Real t = 0, apart = -1;  // apart: the last time where they were, if the step after it was a long one
     bool held = true;        // touching since the start, or known

@@ -134,5 +134,34 @@ TYPED_TEST(Impacts, FromTouchingCountOnlyWhatWouldGoDeep) {
     EXPECT_FALSE(timeOfImpact<S>(W, at(0.205, -1), R(0.01), true).hit) << "unless the solver knows of it";
 }
 
+// A bar turns over a floor: its lower end, which touches, rises, and the other one falls onto the floor. The floor's
+// inscribed radius has no end, and must not count where the time that the bar may take unseen is measured.
+TYPED_TEST(Impacts, TheOtherEndOfABarIsFoundOverAHalfSpace) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    using Vec = typename S::Vec;
+    constexpr R kTilt = R(0.1), kSpin = R(20);
+    Vec half = Vec::Constant(R(0.1));
+    half[0] = R(0.5);
+    const Shape<S> bar = Box<S>{half}, floor = HalfSpace<S>{Vec::Unit(1), R(0)};
+    Pose<S> X;
+    Velocity<S> velocity;
+    if constexpr (S::dim == 2) {
+        X.q = S::Rot::fromAngle(kTilt);
+        velocity.w = -kSpin;
+    } else {
+        X.q = typename S::Rot(Eigen::AngleAxis<R>(kTilt, Vec::UnitZ()));
+        velocity.w = Vec(0, 0, -kSpin);
+    }
+    X.p[1] = R(0.5) * std::sin(kTilt) + R(0.1) * std::cos(kTilt);
+    const auto ground = moving<S>(floor, {}, {}), falls = moving<S>(bar, X, velocity);
+    // The bar turns about its middle, so that the ends have changed places when it has turned by twice the tilt.
+    const double down = 2 * double(kTilt / kSpin), late = 0.25 * 0.1 / (double(kSpin) * double(half.norm()));
+    const auto found = timeOfImpact<S>(ground, falls, R(2 * down));
+    ASSERT_TRUE(found.hit);
+    EXPECT_GT(double(found.time), 0.9 * down);
+    EXPECT_LT(double(found.time), down + late);
+}
+
 }  // namespace
 }  // namespace rigor::engine
