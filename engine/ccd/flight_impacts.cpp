@@ -20,12 +20,6 @@ void keepOnce(std::vector<std::uint32_t>& list) {
     list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// The smaller of two shapes' inscribed radii, at most 1 m.
-template <class S>
-typename S::Real thickness(const ShapeRecord<S>& a, const ShapeRecord<S>& b) {
-    return std::min({a.inscribedRadius, b.inscribedRadius, typename S::Real(1)});
-}
-
 /// True if the step has stopped bodies at a gap that they were closing, or let them bounce where they close it.
 template <class S>
 bool stopsAtGap(const Contact<S>& contact) {
@@ -185,8 +179,8 @@ bool FlightImpacts<S>::runCluster(const MovedWorld<S>& world, std::uint32_t clus
         if (first == nullptr) break;
         const Pair hit = *first;
         const std::uint32_t a = world.contacts.shapes()[hit.a].body, b = world.contacts.shapes()[hit.b].body;
-        ok = impacts < kMaxImpacts && !ways_[a].held && !ways_[b].held && collide(world, hit, events) &&
-             searchAgain(world, hit, cluster);
+        ok = impacts < kMaxImpacts && (hit.touch.sinks || (!ways_[a].held && !ways_[b].held)) &&
+             collide(world, hit, events) && searchAgain(world, hit, cluster);
     }
     if (!ok || sinksIn(world)) {
         for (std::size_t k = 0; k < members_.size(); ++k) {
@@ -205,14 +199,13 @@ bool FlightImpacts<S>::runCluster(const MovedWorld<S>& world, std::uint32_t clus
     return true;
 }
 
-/// True if bodies of the cluster overlap at the end of the step: one that turns about a corner that touches brings others
-/// below the surface.
+/// True if bodies of the cluster overlap at the end of the step.
 template <class S>
 bool FlightImpacts<S>::sinksIn(const MovedWorld<S>& world) const {
     const ShapeSet<S>& shapes = world.contacts.shapes();
     return std::any_of(clusterPairs_.begin(), clusterPairs_.end(), [&](const Pair& pair) {
         return look(world, pair, world.h).distance <
-               -static_cast<Real>(kDeepest) * thickness<S>(shapes[pair.a], shapes[pair.b]);
+               -static_cast<Real>(kDeepest) * thicknessOf<S>(shapes[pair.a], shapes[pair.b]);
     });
 }
 
@@ -227,7 +220,12 @@ bool FlightImpacts<S>::searchAgain(const MovedWorld<S>& world, const Pair& hit, 
     for (Pair& pair : clusterPairs_) {
         if (!isNew(shapes[pair.a].body) && !isNew(shapes[pair.b].body)) continue;
         pair.touch = {};
-        if (pair.a == hit.a && pair.b == hit.b && (ways_[a].held || ways_[b].held)) continue;
+        const bool same = pair.a == hit.a && pair.b == hit.b;
+        pair.sunk += same && hit.touch.sinks;
+        if (same && (ways_[a].held || ways_[b].held)) {
+            if (pair.sunk < kMaxSunk) pair.touch = nextSinking(world, pair, hit.touch.time);
+            continue;
+        }
         pair.touch = firstTouch(world, pair, hit.touch.time);
         if (pair.touch.overlapped) return false;
     }
@@ -254,9 +252,12 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
     const ShapeRecord<S>&sa = world.contacts.shapes()[pair.a], &sb = world.contacts.shapes()[pair.b];
     const std::uint32_t a = sa.body, b = sb.body;
     const Real t = pair.touch.time;
+    for (const std::uint32_t i : {a, b})
+        if (flying_[i] && ways_[i].held) release(world, i, t);
     const Pose<S> A = ways_[a].at(t), B = ways_[b].at(t);
+    const Real within = pair.touch.sinks ? sinkingDepth(pair) : Real(1e-6);
     const Real near =
-        std::max(Real(1e-6) * thickness<S>(sa, sb), Real(4) * touchingDistance<S>(A, B, pair.touch.closest));
+        std::max(within * thicknessOf<S>(sa, sb), Real(4) * touchingDistance<S>(A, B, pair.touch.closest));
     manifold_ = {};
     world.narrowPhase.collide(sa.shape, compose<S>(A, sa.local), sb.shape, compose<S>(B, sb.local), near,
                               manifold_);
@@ -280,18 +281,20 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
         way.turning =
             world.motion.freeRotation(bodies.constants[i], way.start.q, way.velocity.w, world.h - t);
     }
-    // Contact goes on where no point parts and forces press.
+    // Contact goes on where no point parts and forces press; where another part sinks in, at those that do not.
     const Vec& n = manifold_.normal;
-    Real fastest = 0;
+    Real fastest = 0, slowest = std::numeric_limits<Real>::max();
     for (int i = 0; i < manifold_.count; ++i) {
         const ManifoldPoint<S>& where = manifold_.points[static_cast<std::size_t>(i)];
         const Velocity<S>&vA = bodies.velocity[a], &vB = bodies.velocity[b];
-        fastest = std::max(fastest, n.dot(vB.v + cross(vB.w, Vec(where.pointB - B.p)) - vA.v -
-                                          cross(vA.w, Vec(where.pointA - A.p))));
+        const Real parts =
+            n.dot(vB.v + cross(vB.w, Vec(where.pointB - B.p)) - vA.v - cross(vA.w, Vec(where.pointA - A.p)));
+        fastest = std::max(fastest, parts);
+        slowest = std::min(slowest, parts);
     }
     const bool presses = n.dot(ways_[a].acceleration - ways_[b].acceleration) > 0;
     Real held = 0;
-    if (fastest <= world.restitutionThreshold && presses) {
+    if ((pair.touch.sinks ? slowest : fastest) <= world.restitutionThreshold && presses) {
         held = hold(world, a, b, t);
         friction += impactSolver_.frictionImpulse();
     }
@@ -302,6 +305,22 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
                           Vec(Real(0.5) * (pair.touch.closest.pointA + pair.touch.closest.pointB)), n,
                           impulse + held, friction});
     return true;
+}
+
+/// Ends a contact at t, with the velocity that the body has then.
+template <class S>
+void FlightImpacts<S>::release(const MovedWorld<S>& world, std::uint32_t i, Real t) {
+    Way& way = ways_[i];
+    const Real share = (t - way.begin) / (world.h - way.begin);
+    const Vec first = Real(2) * way.velocity.v - way.end.v;
+    way.start = way.at(t);
+    way.velocity = {Vec(first + share * (way.end.v - first)),
+                    Ang(way.velocity.w + share * (way.end.w - way.velocity.w))};
+    way.begin = t;
+    way.acceleration = way.pull;
+    way.held = false;
+    way.turning =
+        world.motion.freeRotation(world.bodies.constants[i], way.start.q, way.velocity.w, world.h - t);
 }
 
 /// Contact from t to the end of the step, by the impulses that hold it at the end. Returns the normal one.

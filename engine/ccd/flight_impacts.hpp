@@ -14,7 +14,8 @@
 // is stepped from impact to impact: both bodies go to where they touch, get the impulses of the impact
 // there (impact.hpp), and go on for what is left of the step. A body that does not bounce stays in contact
 // until the end of the step: with v_h = v + rest a, and impulses that hold the contact and oppose sliding
-// by the law of friction, it moves by rest (v + v_h) / 2.
+// by the law of friction, it moves by rest (v + v_h) / 2. If it turns about what it touches until another part of it is
+// kSinks of the shapes' thickness below the surface, both parts collide there, and so on.
 //
 // A body in flight that comes near nothing else, and whose inertia is not that of a sphere, goes its own way
 // from the start to the end of the step, if that has no sub-steps: the rotation schemes conserve along it what
@@ -26,7 +27,7 @@
 //   - shapes overlap already when the step begins, or approach each other more slowly than that,
 //   - there are more than kMaxImpacts impacts: chattering, which ends in contact,
 //   - a body meets a second one while it is in contact,
-//   - bodies overlap at the end of the step: one that turns about a corner brings others below the surface.
+//   - bodies still overlap at the end of the step.
 //
 // Cost: a broad phase of all shapes' ways in steps with bodies in flight; the closest points of the
 // pairs that come near each other, about twice each; and what an impact takes.
@@ -48,6 +49,10 @@ namespace rigor::engine {
 /// shapes are exact to [m].
 template <class S>
 typename S::Real touchingDistance(const Pose<S>& A, const Pose<S>& B, const ClosestPoints<S>& closest);
+
+/// The smaller of two shapes' inscribed radii, at most 1 m.
+template <class S>
+typename S::Real thicknessOf(const ShapeRecord<S>& a, const ShapeRecord<S>& b);
 
 template <class S>
 class FlightImpacts {
@@ -78,6 +83,9 @@ class FlightImpacts {
 
   private:
     static constexpr int kMaxImpacts = 16;  ///< largest number of impacts of one cluster in one step
+    static constexpr int kMaxSunk = 3;      ///< largest number of touches of a pair by Touch::sinks
+    /// Depth at which parts of bodies in contact collide, of the smaller inscribed radius; as much more each time.
+    static constexpr double kSinks = 0.005;
 
     /// Motion of a body from `begin` to the end of the step.
     struct Way {
@@ -86,6 +94,7 @@ class FlightImpacts {
         Vec acceleration = Vec::Zero();
         Ang turning = zeroAng<S>();  ///< mean angular velocity
         Real begin = 0;              ///< [s]
+        Vec pull = Vec::Zero();      ///< acceleration by forces
         bool held = false;           ///< in contact until the end of the step
         Velocity<S> end;             ///< velocity at the end of the step, if held
         Pose<S> at(Real t) const {
@@ -97,12 +106,14 @@ class FlightImpacts {
     };
     struct Touch {
         bool hit = false, overlapped = false;
+        bool sinks = false;  ///< a part of two bodies in contact sinks in
         Real time = 0;
         ClosestPoints<S> closest;
     };
     struct Pair {
         std::uint32_t a = 0, b = 0;  ///< shapes; the body of a has the lower index
         std::uint32_t cluster = 0;   ///< a body in flight
+        int sunk = 0;                ///< number of touches by Touch::sinks
         Touch touch;
     };
 
@@ -117,6 +128,10 @@ class FlightImpacts {
     void joinPushed(const MovedWorld<S>& world);
     void addPair(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j);
     Touch firstTouch(const MovedWorld<S>& world, const Pair& pair, Real from) const;
+    static Real sinkingDepth(const Pair& pair) {
+        return static_cast<Real>(kSinks) * static_cast<Real>(1 + pair.sunk);
+    }
+    Touch nextSinking(const MovedWorld<S>& world, const Pair& pair, Real from) const;
     bool comesNear(const MovedWorld<S>& world, const Pair& pair, Real from) const;
     Real turningAlong(const MovedWorld<S>& world, const Pair& pair, const Vec& n) const;
     Real fastestAlong(const MovedWorld<S>& world, const Pair& pair, const Vec& n, Real t) const;
@@ -131,6 +146,7 @@ class FlightImpacts {
     bool searchAgain(const MovedWorld<S>& world, const Pair& hit, std::uint32_t cluster);
     void goTo(const MovedWorld<S>& world, std::uint32_t body, Real t);
     void tumble(const MovedWorld<S>& world);
+    void release(const MovedWorld<S>& world, std::uint32_t body, Real t);
     Real hold(const MovedWorld<S>& world, std::uint32_t a, std::uint32_t b, Real t);
 
     // --- by dense body index

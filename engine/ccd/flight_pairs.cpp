@@ -38,9 +38,12 @@ void FlightImpacts<S>::makeWays(const MovedWorld<S>& world) {
     ways_.resize(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         Way& way = ways_[i];
-        way = {startPose_[i], startVelocity_[i], Vec::Zero(), startVelocity_[i].w, 0, false, {}};
+        way = Way{};
+        way.start = startPose_[i];
+        way.velocity = startVelocity_[i];
+        way.turning = startVelocity_[i].w;
         if (flying_[i]) {
-            way.acceleration = gained_[i] / world.h;
+            way.acceleration = way.pull = gained_[i] / world.h;
             way.turning =
                 world.motion.freeRotation(bodies.constants[i], way.start.q, way.velocity.w, world.h);
         } else if (bodies.constants[i].type == BodyType::Dynamic) {

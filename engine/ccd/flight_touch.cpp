@@ -93,6 +93,7 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
     constexpr int kMaxLooks = 100;
     const Real slowest = slowestImpact(
         world, world.contacts.materials().pair(sa.material, sb.material).restitution, sa.body, sb.body);
+    const Real sunk = pair.sunk > 0 ? sinkingDepth(pair) * thicknessOf<S>(sa, sb) : Real(0);
     Touch touch;
     Real t = from;
     ClosestPoints<S> closest = look(world, pair, t);
@@ -102,7 +103,7 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
         const Real near = touchingDistance<S>(A.start, B.start, closest);
         const Real u = closingSpeed(pair, world, closest, t), a = n.dot(A.acceleration - B.acceleration);
         // The tolerance of an earlier touch was that of other poses.
-        if (d < -Real(2) * near && i == 0) {
+        if (d < -Real(2) * near - sunk && i == 0) {
             touch.overlapped = true;
             return touch;
         }
@@ -161,11 +162,46 @@ typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S
     return touch;
 }
 
-#define RIGOR_INSTANTIATE(S)                                                                         \
-    template S::Real touchingDistance<S>(const Pose<S>&, const Pose<S>&, const ClosestPoints<S>&);   \
-    template ClosestPoints<S> FlightImpacts<S>::look(const MovedWorld<S>&, const Pair&, Real) const; \
-    template bool FlightImpacts<S>::comesNear(const MovedWorld<S>&, const Pair&, Real) const;        \
-    template typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S>&,     \
+template <class S>
+typename S::Real thicknessOf(const ShapeRecord<S>& a, const ShapeRecord<S>& b) {
+    return std::min({a.inscribedRadius, b.inscribedRadius, typename S::Real(1)});
+}
+
+/// The first time after `from` at which two bodies in contact, which turn about what they touch, have sunk in by kSinks:
+/// among samples, then bisection, which ends where they are less deep.
+template <class S>
+typename FlightImpacts<S>::Touch FlightImpacts<S>::nextSinking(const MovedWorld<S>& world, const Pair& pair,
+                                                               Real from) const {
+    constexpr int kSamples = 8, kBisections = 12;
+    const ShapeSet<S>& shapes = world.contacts.shapes();
+    const Real deep = sinkingDepth(pair) * thicknessOf<S>(shapes[pair.a], shapes[pair.b]);
+    const auto isDeep = [&](Real t) { return look(world, pair, t).distance < -deep; };
+    Touch touch;
+    Real lo = from, hi = from;
+    for (int k = 1; k <= kSamples && !touch.sinks; ++k) {
+        lo = hi;
+        hi = from + (world.h - from) * static_cast<Real>(k) / Real(kSamples);
+        touch.sinks = isDeep(hi);
+    }
+    if (!touch.sinks) return touch;
+    for (int k = 0; k < kBisections; ++k) {
+        const Real mid = Real(0.5) * (lo + hi);
+        (isDeep(mid) ? hi : lo) = mid;
+    }
+    touch.hit = lo < world.h;
+    touch.time = lo;
+    touch.closest = look(world, pair, lo);
+    return touch;
+}
+
+#define RIGOR_INSTANTIATE(S)                                                                          \
+    template S::Real touchingDistance<S>(const Pose<S>&, const Pose<S>&, const ClosestPoints<S>&);    \
+    template ClosestPoints<S> FlightImpacts<S>::look(const MovedWorld<S>&, const Pair&, Real) const;  \
+    template S::Real thicknessOf<S>(const ShapeRecord<S>&, const ShapeRecord<S>&);                    \
+    template bool FlightImpacts<S>::comesNear(const MovedWorld<S>&, const Pair&, Real) const;         \
+    template typename FlightImpacts<S>::Touch FlightImpacts<S>::nextSinking(const MovedWorld<S>&,     \
+                                                                            const Pair&, Real) const; \
+    template typename FlightImpacts<S>::Touch FlightImpacts<S>::firstTouch(const MovedWorld<S>&,      \
                                                                            const Pair&, Real) const;
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

@@ -123,7 +123,7 @@ TYPED_TEST(FlightImpact, ALandingIsShownOnce) {
 }
 
 /// Bricks that fall on the ground at 8 m/s and turn fast, in all orientations, without restitution. One that lands on a
-/// corner turns about it by up to half a radian in the rest of the step; the corners that come down next stay up, too.
+/// corner turns about it by up to half a radian in the rest of the step, and collides at the corners that come down next.
 TYPED_TEST(FlightImpact, ABrickThatTurnsAboutACornerDoesNotSinkIn) {
     using S = TypeParam;
     using R = typename S::Real;
@@ -164,7 +164,7 @@ TYPED_TEST(FlightImpact, ABrickThatTurnsAboutACornerDoesNotSinkIn) {
                 std::max(deepest, -double(closestPoints<S>(ground, under, brick, world.pose(id)).distance));
         }
     }
-    EXPECT_LT(deepest, 0.04);
+    EXPECT_LT(deepest, S::dim == 2 ? 0.04 : 0.02);
 }
 
 /// A ball flies at a cube that rests on ice, which is not in flight. Wherever in a step they meet, and where a step stops
