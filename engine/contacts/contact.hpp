@@ -48,6 +48,7 @@ struct alignas(64) Contact {
     bool vetoed = false;       ///< refused by the callback in its last call (pre_solve.hpp)
     bool placed = false;       ///< the points' arms and separations are those of the manifold
     bool impacts = false;      ///< some point has `impact`
+    bool parted = false;       ///< has acted in this step, and is open since the second search
     bool driven = false;       ///< a surface has a velocity over its body: surfaceA, surfaceB
     IslandSize islands = IslandSize::Usual;  ///< the method that solves its island
     PairCoefficients<S> coefficients;

@@ -27,7 +27,23 @@ void ContactFinder<S>::run(const ContactUpdate<S>& update, bool exact, Candidate
     std::atomic<std::uint32_t> taken = 0;
     const Tasks& those = update.narrowPhase.manyThreads() ? tasks : Tasks::one();
     const bool looksAhead = update.ahead.looksAhead();
+    const auto beginContact = [&](Candidate<S>& candidate) {
+        if (const std::optional<Contact<S>> contact = update.find(candidate)) {
+            candidate.found = true;
+            candidate.begun = taken.fetch_add(1, std::memory_order_relaxed);
+            begun_.put(candidate.begun, *contact);
+        }
+    };
+    const auto updateAgain = [&](Candidate<S>& candidate) {
+        candidate.queried = false;
+        candidate.found = candidate.contact != kNullIndex;
+        if (candidate.found)
+            update.refresh(candidate, contacts.at(candidate.contact));
+        else if (update.mayBegin(candidate))
+            beginContact(candidate);
+    };
     const auto updateCandidate = [&](Candidate<S>& candidate) {
+        if (update.isSecond()) return updateAgain(candidate);
         candidate.found = candidate.queried = false;
         if (!exact && !update.shapes.box(candidate.a).overlaps(update.shapes.box(candidate.b))) {
             candidate.cached = false;  // treated like pairs that the broad phase does not list
@@ -38,11 +54,7 @@ void ContactFinder<S>::run(const ContactUpdate<S>& update, bool exact, Candidate
             return;
         }
         if (update.cache.isValid(candidate) && !looksAhead) return;
-        if (const std::optional<Contact<S>> contact = update.find(candidate)) {
-            candidate.found = true;
-            candidate.begun = taken.fetch_add(1, std::memory_order_relaxed);
-            begun_.put(candidate.begun, *contact);
-        }
+        beginContact(candidate);
     };
     outcomes_.resize(list.size());
     begun_.require(list.size());
@@ -62,6 +74,10 @@ void ContactFinder<S>::run(const ContactUpdate<S>& update, bool exact, Candidate
         }
         counters_[c] = counters;
     });
+    if (!update.isSecond()) {
+        ended_.clear();
+        queries_ = 0;
+    }
     commit(candidates, contacts, tasks);
 }
 
@@ -69,13 +85,12 @@ void ContactFinder<S>::run(const ContactUpdate<S>& update, bool exact, Candidate
 template <class S>
 void ContactFinder<S>::commit(Candidates<S>& candidates, ContactList<S>& contacts, const Tasks& tasks) {
     SlotList<Candidate<S>>& list = candidates.list();
-    ended_.clear();
     Counters all;
     for (Counters& counters : counters_) {
         counters.first = all.found();
         all.add(counters);
     }
-    queries_ = all.queried;
+    queries_ += all.queried;
     if (all.persisting == contacts.size() && all.begun == 0) return;
 
     contacts.reserve(all.begun);

@@ -34,7 +34,7 @@ class ContactFinder {
     /// `exact`: the boxes of all candidates overlap.
     void run(const ContactUpdate<S>& update, bool exact, Candidates<S>& candidates, ContactList<S>& contacts,
              const Tasks& tasks);
-    /// Narrow-phase queries of the last run.
+    /// Narrow-phase queries of the last step.
     std::size_t queries() const { return queries_; }
     /// Ended contacts in the order of the list.
     const std::vector<EndedContact>& ended() const { return ended_; }

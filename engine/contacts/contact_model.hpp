@@ -42,6 +42,7 @@ struct ContactStep {
     bool rowsLag = false;                   ///< the rows are those of the step's middle (row_lag.hpp)
     IslandSize islands = IslandSize::Usual;      ///< the model is for the contacts of these islands
     std::span<const std::uint8_t> mayLand = {};  ///< bodies that land at their own times; empty: none
+    bool continues = false;  ///< the contacts were found again within the step: their totals go on
 };
 
 /// Bits of ContactStep::mayLand: what bodies may do at their own times within a step, and what they do
@@ -69,7 +70,7 @@ class ContactModel {
     virtual ~ContactModel() = default;
     virtual std::unique_ptr<ContactModel> clone() const = 0;
 
-    /// Once per step, before the first beginSubstep().
+    /// Once per step, before the first beginSubstep(); again where the contacts were found again within it.
     virtual void prepare(ContactList<S>& contacts, const BodyArrays<S>& bodies, const ContactStep<S>& step,
                          const Tasks& tasks) = 0;
     /// The bodies' velocities are those before the forces of the sub-step. Contacts that are rows are appended

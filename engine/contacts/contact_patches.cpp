@@ -127,13 +127,17 @@ void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const Contact
         to.setPoint(i, false, Real(0), Vec::Zero(), Real(0), {});
 }
 
+/// Impulses since the patches were prepared; `continues`: the totals of the contact are from before.
 template <class S>
 void readLane(const PatchBlock<PatchSpace<S>>& block, const PatchFriction<PatchSpace<S>>& friction,
-              std::size_t lane, Contact<S>& contact) {
+              std::size_t lane, bool continues, Contact<S>& contact) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
+        typename Contact<S>::Impulse& total = contact.totals[i];
+        if (!continues) total = {};
         contact.impulses[i] = {block.point[i].impulse[lane], takeVector<S>(friction.last[i], lane)};
-        contact.totals[i] = {block.point[i].total[lane], takeVector<S>(friction.total[i], lane)};
-        contact.touching = contact.touching || contact.totals[i].normal > 0;
+        total.normal += block.point[i].total[lane];
+        total.friction += takeVector<S>(friction.total[i], lane);
+        contact.touching = contact.touching || total.normal > 0;
     }
 }
 
@@ -174,6 +178,7 @@ PatchPass passOf(const ContactStep<S>& step) {
 template <class S>
 void PatchContacts<S>::prepare(ContactList<S>& contacts, const BodyArrays<S>& bodies,
                                const ContactStep<S>& step, const Tasks& tasks) {
+    continues_ = step.continues;
     patches_.resize(contacts.size());
     tasks.forEach(contacts.size(), kPatchGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts[k];
@@ -183,9 +188,10 @@ void PatchContacts<S>::prepare(ContactList<S>& contacts, const BodyArrays<S>& bo
         const bool movesA = bodies.invMass[contact.bodyA] > 0, movesB = bodies.invMass[contact.bodyB] > 0;
         const bool solved = !contact.asleep && !contact.vetoed && (movesA || movesB);
         contact.block.fill(solved ? Contact<S>::kPatch : kNullIndex);
+        const bool open = contact.parted && step.continues;
         if (!solved && !contact.asleep) contact.totals.fill({});
         patches_.setDescriptor(k, {contact.bodyA, contact.bodyB, movesA, movesB,
-                                   static_cast<std::uint8_t>(solved ? contact.manifold.count : 0)});
+                                   static_cast<std::uint8_t>(solved && !open ? contact.manifold.count : 0)});
     });
     patches_.assignLanes(bodies, tasks);
     patches_.forBlocks(tasks, [&](std::size_t b) {
@@ -244,11 +250,13 @@ void PatchContacts<S>::store(ContactList<S>& contacts, const ConstraintRows<S>&,
         patches_.distribute(b, friction);
         for (std::size_t lane = 0; lane < kLanes; ++lane)
             if (const std::uint32_t source = patches_.sourceAt(b, lane); source != kNullIndex) {
-                readLane(patches_.block(b), friction, lane, contacts[source]);
-                if (!contacts[source].coefficients.hasMoments()) continue;
+                Contact<S>& contact = contacts[source];
+                readLane(patches_.block(b), friction, lane, continues_, contact);
+                if (!contact.coefficients.hasMoments()) continue;
                 const auto& cold = patches_.coldData(b);
-                contacts[source].moment = takeMoment<S>(patches_.block(b), cold.moment, lane);
-                contacts[source].momentTotal = takeMoment<S>(patches_.block(b), cold.momentTotal, lane);
+                contact.moment = takeMoment<S>(patches_.block(b), cold.moment, lane);
+                if (!continues_) contact.momentTotal = zeroAng<S>();
+                contact.momentTotal += takeMoment<S>(patches_.block(b), cold.momentTotal, lane);
             }
     });
 }

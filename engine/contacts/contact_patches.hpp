@@ -36,7 +36,8 @@ class PatchContacts final : public ContactModel<S> {
 
   private:
     Patches<S> patches_;
-    PatchPass pass_;  ///< constants of the sub-step
+    PatchPass pass_;          ///< constants of the sub-step
+    bool continues_ = false;  ///< ContactStep::continues of the last prepare()
 };
 
 }  // namespace rigor::engine

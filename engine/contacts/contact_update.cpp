@@ -13,9 +13,15 @@
 namespace rigor::engine {
 namespace {
 
-/// Points of the last step's manifold, for matching with those of this step.
+/// Points of a contact's manifold before it is found anew, for matching with those of the new one.
 template <class S>
 struct OldPoints {
+    explicit OldPoints(const Contact<S>& contact) : count(static_cast<std::size_t>(contact.manifold.count)) {
+        for (std::size_t i = 0; i < count; ++i) {
+            feature[i] = contact.manifold.points[i].feature;
+            pointB[i] = contact.manifold.points[i].pointB;
+        }
+    }
     std::size_t count;
     std::array<std::uint32_t, S::maxManifoldPoints> feature;
     std::array<typename S::Vec, S::maxManifoldPoints> pointB;
@@ -31,12 +37,13 @@ void clearStep(Contact<S>& contact) {
 }
 
 /// Matches points by feature. A point with a new feature (the reference face has changed to the other body)
-/// takes the impulses and the arms of the nearest unmatched point, if that is near compared with its arm.
+/// takes the impulses and the arms of the nearest unmatched point, if that is near compared with its arm. The first
+/// point takes the totals of those that have gone within the step.
 template <class S>
 void matchPoints(const BodyArrays<S>& bodies, const OldPoints<S>& old, Contact<S>& contact) {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
-    const auto impulses = contact.impulses;
+    const auto impulses = contact.impulses, totals = contact.totals;
     const auto points = contact.points;
     const auto setArms = [](auto& point, const Vec& rA, const Vec& rB) {
         point.rA = rA;
@@ -46,11 +53,14 @@ void matchPoints(const BodyArrays<S>& bodies, const OldPoints<S>& old, Contact<S
     const auto take = [&](std::size_t from, std::size_t to) {
         used[from] = done[to] = true;
         contact.impulses[to] = impulses[from];
+        contact.totals[to] = totals[from];
         if (!contact.placed) setArms(contact.points[to], points[from].rA, points[from].rB);
     };
     const auto n = static_cast<std::size_t>(contact.manifold.count);
     for (std::size_t i = 0; i < n; ++i) {
-        contact.impulses[i] = {};
+        contact.impulses[i] = contact.totals[i] = {};
+        // Patches do not write it, and the hash must not depend on points that the contact had earlier.
+        if (i >= old.count && !contact.placed) contact.points[i].separation = 0;
         if (!contact.placed) setArms(contact.points[i], Vec::Zero(), Vec::Zero());
         for (std::size_t j = 0; j < old.count && !done[i]; ++j)
             if (!used[j] && contact.manifold.points[i].feature == old.feature[j]) take(j, i);
@@ -70,6 +80,11 @@ void matchPoints(const BodyArrays<S>& bodies, const OldPoints<S>& old, Contact<S
         }
         if (best < old.count) take(best, i);
     }
+    for (std::size_t j = 0; j < old.count; ++j) {
+        if (used[j]) continue;
+        contact.totals[0].normal += totals[j].normal;
+        contact.totals[0].friction += totals[j].friction;
+    }
 }
 
 /// True where there are points, and all are further apart than `near`.
@@ -78,6 +93,13 @@ bool isApart(const Manifold<S>& manifold, typename S::Real near) {
     for (int i = 0; i < manifold.count; ++i)
         if (manifold.points[i].separation <= near) return false;
     return manifold.count > 0;
+}
+
+template <class S>
+bool overlaps(const Manifold<S>& manifold) {
+    for (int i = 0; i < manifold.count; ++i)
+        if (manifold.points[i].separation < 0) return true;
+    return false;
 }
 
 /// Transfers the impulses of the last step to the points of this step.
@@ -101,22 +123,48 @@ bool ContactUpdate<S>::update(Candidate<S>& candidate, Contact<S>& contact) cons
         clearStep(contact);
         return complete(candidate, contact);
     }
-    OldPoints<S> old;
-    old.count = static_cast<std::size_t>(contact.manifold.count);
-    for (std::size_t i = 0; i < old.count; ++i) {
-        old.feature[i] = contact.manifold.points[i].feature;
-        old.pointB[i] = contact.manifold.points[i].pointB;
-    }
-    if (candidate.cached)
-        contact.manifold.memory.normal = contact.manifold.normal;  // turned with its body since
-    contact.manifold.normal.setZero();
-    contact.manifold.count = 0;
-    query(candidate, contact.manifold);
+    const OldPoints<S> old(contact);
+    queryAgain(candidate, contact);
     if (contact.manifold.count == 0) contact.cache.count = 0;
     makePoints(candidate, contact);
     if (!complete(candidate, contact)) return false;
     transferImpulses<S>(bodies, old, contact);
     return true;
+}
+
+template <class S>
+void ContactUpdate<S>::refresh(Candidate<S>& candidate, Contact<S>& contact) const {
+    if (contact.islands != second.islands || contact.vetoed || isAsleep<S>(bodies, contact)) return;
+    contact.lastNormal.setZero();  // it is of another time of the step
+    contact.placed = false;
+    if (candidate.cached && !isDisturbed(candidate)) return cache.moveManifold(candidate, contact);
+    const OldPoints<S> old(contact);
+    const Manifold<S> before = contact.manifold;
+    queryAgain(candidate, contact);
+    if (contact.manifold.count > 0) {
+        makePoints(candidate, contact);
+        contact.touching = contact.touching || overlaps(contact.manifold);
+        return matchPoints(bodies, old, contact);
+    }
+    contact.manifold = before;  // the step shows where it has acted
+    contact.parted = true;
+    contact.impulses.fill({});
+    contact.moment = zeroAng<S>();
+    candidate.cached = false;
+}
+
+template <class S>
+bool ContactUpdate<S>::isDisturbed(const Candidate<S>& candidate) const {
+    return second.disturbed[shapes[candidate.a].body] || second.disturbed[shapes[candidate.b].body];
+}
+
+template <class S>
+bool ContactUpdate<S>::mayBegin(const Candidate<S>& candidate) const {
+    const auto takesPart = [&](std::uint32_t body) {
+        return bodies.constants[body].type != BodyType::Dynamic || bodies.islands[body] == second.islands;
+    };
+    return isDisturbed(candidate) && takesPart(shapes[candidate.a].body) &&
+           takesPart(shapes[candidate.b].body) && shapes.box(candidate.a).overlaps(shapes.box(candidate.b));
 }
 
 template <class S>
@@ -134,6 +182,7 @@ std::optional<Contact<S>> ContactUpdate<S>::find(Candidate<S>& candidate) const 
     contact.piece = candidate.piece;
     contact.bodyA = shapes[candidate.a].body;
     contact.bodyB = shapes[candidate.b].body;
+    contact.islands = second.islands;
     if (manifold.count > 0) makePoints(candidate, contact);
     if (!complete(candidate, contact)) found.reset();
     return found;
@@ -154,7 +203,7 @@ void ContactUpdate<S>::makePoints(Candidate<S>& candidate, Contact<S>& contact) 
 /// Completes a contact for the solver: speculative points, coefficients, touching. False: it has no points.
 template <class S>
 bool ContactUpdate<S>::complete(Candidate<S>& candidate, Contact<S>& contact) const {
-    contact.asleep = contact.speculative = contact.vetoed = contact.placed = false;
+    contact.asleep = contact.speculative = contact.vetoed = contact.placed = contact.parted = false;
     // Continuous collision does not predict contacts with pieces of a chain, mesh or height field.
     if (candidate.piece == kNullIndex && ahead.looksAhead()) {
         placePoints<S>(bodies, contact);
@@ -171,10 +220,17 @@ bool ContactUpdate<S>::complete(Candidate<S>& candidate, Contact<S>& contact) co
         contact.surfaceA = surfaceNow(bodies, shapes[candidate.a]);
         contact.surfaceB = surfaceNow(bodies, shapes[candidate.b]);
     }
-    contact.touching = false;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
-        contact.touching = contact.touching || contact.manifold.points[i].separation < 0;
+    contact.touching = overlaps(contact.manifold);
     return contact.manifold.count > 0;
+}
+
+template <class S>
+void ContactUpdate<S>::queryAgain(Candidate<S>& candidate, Contact<S>& contact) const {
+    if (candidate.cached)
+        contact.manifold.memory.normal = contact.manifold.normal;  // turned with its body since
+    contact.manifold.normal.setZero();
+    contact.manifold.count = 0;
+    query(candidate, contact.manifold);
 }
 
 template <class S>

@@ -22,6 +22,13 @@
 
 namespace rigor::engine {
 
+/// A second search within a step (pipeline/step_second_search.cpp).
+struct SecondSearch {
+    /// Flag of each body, 1: its motion was not foreseen by the first search. Empty: the search is the first.
+    std::span<const std::uint8_t> disturbed;
+    IslandSize islands = IslandSize::Usual;  ///< size of the islands that take part
+};
+
 /// Input that contacts are made from in one step.
 template <class S>
 struct ContactUpdate {
@@ -37,15 +44,26 @@ struct ContactUpdate {
     bool bouncesAhead;            ///< ContactSearch::bouncesAhead
     std::span<const std::uint8_t>
         touched;  ///< dynamic bodies that touched something in the last step; where ahead
+    SecondSearch second = {};
 
     /// Updates a contact of the last step. False: it has ended.
     bool update(Candidate<S>& candidate, Contact<S>& contact) const;
     /// The new contact of a candidate that had none in the last step, if there is one.
     std::optional<Contact<S>> find(Candidate<S>& candidate) const;
 
+    // --- in the second search of a step
+    bool isSecond() const { return !second.disturbed.empty(); }
+    /// Finds the manifold of a contact again, or moves it with its bodies if neither is disturbed. The contact stays one,
+    /// with its impulses, until the step ends.
+    void refresh(Candidate<S>& candidate, Contact<S>& contact) const;
+    /// A candidate without a contact may have one now.
+    bool mayBegin(const Candidate<S>& candidate) const;
+
   private:
     using Real = typename S::Real;
 
+    bool isDisturbed(const Candidate<S>& candidate) const;
+    void queryAgain(Candidate<S>& candidate, Contact<S>& contact) const;
     void query(Candidate<S>& candidate, Manifold<S>& manifold) const;
     void dropFarPoints(Candidate<S>& candidate, Manifold<S>& manifold) const;
     bool mayMeet(const Candidate<S>& candidate) const;

@@ -119,6 +119,32 @@ void Contacts<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S
                                 const Tasks& tasks) {
     filter_.setVetoed({});
     candidates_.update(bodies, shapes_, filter_, pairs_, search_, tasks);
+    runFinder(bodies, search_, {}, narrowPhase, makeManifold, ahead, tasks);
+    coefficientsOf_ = materials_.revision();
+    if (preSolve_) callPreSolve(bodies, [](const Contact<S>&) { return true; });
+}
+
+template <class S>
+void Contacts<S>::findAgain(const BodyArrays<S>& bodies, const SecondSearch& second,
+                            typename S::Real motionTime, const NarrowPhase<S>& narrowPhase,
+                            ManifoldFunction<S> makeManifold, const LookAhead<S>& ahead, const Tasks& tasks) {
+    ContactSearch<S> search = search_;
+    (search.motionTime > 0 ? search.motionTime : search.largeMotionTime) = motionTime;
+    shapes_.update(bodies, search, ahead, tasks);
+    runFinder(bodies, search, second, narrowPhase, makeManifold, ahead, tasks);
+    // The others have blocks, are of other islands, of bodies that do not move, or were refused.
+    const auto isNew = [&](const Contact<S>& contact) {
+        const bool moves = bodies.invMass[contact.bodyA] > 0 || bodies.invMass[contact.bodyB] > 0;
+        return contact.islands == second.islands && moves && !contact.vetoed &&
+               contact.block[0] == kNullIndex;
+    };
+    if (preSolve_) callPreSolve(bodies, isNew);
+}
+
+template <class S>
+void Contacts<S>::runFinder(const BodyArrays<S>& bodies, const ContactSearch<S>& search,
+                            const SecondSearch& second, const NarrowPhase<S>& narrowPhase,
+                            ManifoldFunction<S> makeManifold, const LookAhead<S>& ahead, const Tasks& tasks) {
     findTouched(bodies);
     // It keeps the points as they are.
     if (makeManifold == &manifoldClipped<S>) makeManifold = nullptr;
@@ -128,14 +154,13 @@ void Contacts<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S
                                   narrowPhase,
                                   makeManifold,
                                   ahead,
-                                  ContactCache<S>(shapes_, search_.speculativeDistance),
+                                  ContactCache<S>(shapes_, search.speculativeDistance),
                                   coefficientsOf_ == materials_.revision(),
-                                  search_.longestMotionTime(),
-                                  search_.bouncesAhead,
-                                  touched_};
+                                  search.longestMotionTime(),
+                                  search.bouncesAhead,
+                                  touched_,
+                                  second};
     finder_.run(update, pairs_.exact(), candidates_, list_, tasks);
-    coefficientsOf_ = materials_.revision();
-    if (preSolve_) callPreSolve(bodies);
 }
 
 template <class S>
@@ -151,12 +176,13 @@ void Contacts<S>::findTouched(const BodyArrays<S>& bodies) {
 
 /// Contacts of bodies that sleep keep what they had.
 template <class S>
-void Contacts<S>::callPreSolve(const BodyArrays<S>& bodies) {
+template <class IsNew>
+void Contacts<S>::callPreSolve(const BodyArrays<S>& bodies, const IsNew& isNew) {
     coefficientsOf_ = 0;
     std::vector<std::uint64_t> vetoed;
     for (Contact<S>& contact : list_) {
         const ShapeRecord<S>&a = shapes_[contact.shapeA], &b = shapes_[contact.shapeB];
-        if (!isAsleep<S>(bodies, contact)) {
+        if (!isAsleep<S>(bodies, contact) && isNew(contact)) {
             const auto answer =
                 preSolve_(bodies, a, b, contact.piece, contact.manifold, bodies.pose[contact.bodyA].p,
                           bodies.pose[contact.bodyB].p, contact.coefficients);

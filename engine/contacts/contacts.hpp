@@ -84,7 +84,13 @@ class Contacts {
     /// Narrow phase of the pairs; contacts that persist keep the impulses of the last step.
     void findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
                        ManifoldFunction<S> makeManifold, const LookAhead<S>& ahead, const Tasks& tasks);
-    /// Narrow-phase queries of the last findManifolds.
+    /// The second search of a step, after bodies have moved (ContactUpdate::second): manifolds of the pairs that the first
+    /// has found, as far ahead as bodies move in `motionTime` [s]. Contacts may begin, and none ends. The callback is called
+    /// for those that begin.
+    void findAgain(const BodyArrays<S>& bodies, const SecondSearch& second, typename S::Real motionTime,
+                   const NarrowPhase<S>& narrowPhase, ManifoldFunction<S> makeManifold,
+                   const LookAhead<S>& ahead, const Tasks& tasks);
+    /// Narrow-phase queries of the last step.
     std::size_t queries() const { return finder_.queries(); }
     /// Pairs of boxes that overlap.
     const std::vector<ProxyPair>& pairs() const { return pairs_.overlapping(shapes_); }
@@ -113,8 +119,12 @@ class Contacts {
     bool completeRestored();
 
   private:
+    void runFinder(const BodyArrays<S>& bodies, const ContactSearch<S>& search, const SecondSearch& second,
+                   const NarrowPhase<S>& narrowPhase, ManifoldFunction<S> makeManifold,
+                   const LookAhead<S>& ahead, const Tasks& tasks);
     void findTouched(const BodyArrays<S>& bodies);
-    void callPreSolve(const BodyArrays<S>& bodies);
+    template <class IsNew>
+    void callPreSolve(const BodyArrays<S>& bodies, const IsNew& isNew);
 
     MaterialTable<S> materials_;
     ShapeSet<S> shapes_;

@@ -37,6 +37,7 @@ struct IslandMethod {
     int velocityIterations = 1;  ///< most iterations of each
     Real contactFrequency = 0;   ///< frequency of soft contacts [Hz]
     bool relinearizedJoints = true;
+    int secondSearch = 0;        ///< sub-step before which contacts may be found again; 0: none is
     Real cacheTolerance = 0;     ///< WorldDef's setting of that name [m]
     Real speculativeMotion = 0;  ///< the same; at least 1 where steps lead from midpoint to midpoint
 };

@@ -129,7 +129,8 @@ void Step<S>::makeRows() {
                         begins};
     joints_.addRows(bodies_, state_.jointStep, rows_, tasks_);
     state_.jointRows = rows_.rows.size();
-    if (begins) contactModel_.prepare(contacts_.list(), bodies_, step, tasks_);
+    if (begins || (state_.searchedAgain && state_.substep == method_.secondSearch))
+        contactModel_.prepare(contacts_.list(), bodies_, step, tasks_);
     contactModel_.beginSubstep(contacts_.list(), bodies_, step, rows_, tasks_);
     if (algorithms_.restitution->solvesImpacts()) solveImpacts();
 }
@@ -167,7 +168,8 @@ ContactStep<S> Step<S>::contactStep() const {
             motion_.isAtMidpoint() && !method_.style.positions,
             rowsLag(),
             state_.islands,
-            state_.mayLand};
+            state_.mayLand,
+            state_.searchedAgain};
 }
 
 template <class S>

@@ -4,6 +4,7 @@
 // One step of h, as Step::forEachStage writes it down:
 //     find contacts    broad phase, narrow phase, where the bodies are
 //     in each sub-step
+//         find again   contacts of bodies in violent motion, in the middle of the step  (where the choice allows it)
 //         rows         joints, contacts (approach speeds from before the forces)
 //         velocities   v += h a; damping; gyroscopic term
 //         solve        impulses for the rows
@@ -53,6 +54,7 @@ void Step<S>::forEachStage(const WorldParts<S>& world, const StepState<S>& state
         const IslandMethod<S>& method = world.algorithms.method(islands);
         for (int substep = 0; substep < method.substeps; ++substep) {
             const auto stage = [&](Phase phase, Work work) { each(islands, phase, substep, work); };
+            if (substep > 0 && substep == method.secondSearch) stage(Phase::NarrowPhase, &Step::searchAgain);
             stage(Phase::Rows, &Step::makeRows);
             stage(Phase::Velocities, &Step::kick);
             if (!method.style.positions) {

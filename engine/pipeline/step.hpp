@@ -59,6 +59,11 @@ struct StepState {
     PositionScratch<S> positions;
     ConstraintRows<S> noContacts;         ///< always empty
     std::vector<Velocity<S>> still, way;  ///< zero; velocities of each body in the last sub-step
+    // --- the second search (step_second_search.cpp)
+    std::vector<Velocity<S>> foreseen;    ///< velocities that the first search has looked ahead with
+    std::vector<std::uint8_t> disturbed;  ///< bodies that have others by now
+    bool searchedAgain = false;           ///< in the islands that the stage works on
+    Real searchTime = 0;         ///< time of the step at which contacts of large islands were found [s]
     std::vector<Lead<S>> leads;  ///< ways to the midpoints; integrators that have none leave them as they are
     DisjointSets jointed;        ///< bodies that joints connect
     std::vector<std::uint8_t> leaving;  ///< roots of those of which one leaves its midpoint
@@ -133,6 +138,7 @@ class Step {
     // --- stages
     void findPairs();
     void findManifolds();
+    void searchAgain();
     void makeRows();
     void kick();
     void solve();
@@ -167,6 +173,9 @@ class Step {
     // step_first_frames.cpp
     void findRenewed(bool same);
     void findFirstFrames();
+    // step_second_search.cpp
+    bool findDisturbed();
+    bool hasMovingSurface() const;
     // step_bounces.cpp
     void placeBounces();
     MovingShape<S> movingShapeOf(std::uint32_t shape) const;

@@ -105,6 +105,9 @@ void Step<S>::beginIslands() {
     if (state_.islands == IslandSize::Large)
         state_.lastSubstepSize *= Real(algorithms_.usual.substeps) / Real(method_.substeps);
     motion_.beginStep();
+    state_.searchedAgain = false;
+    if (state_.islands == IslandSize::Large) state_.searchTime = halfOf(IslandSize::Large);
+    if (method_.secondSearch > 0) state_.foreseen.assign(bodies_.velocity.begin(), bodies_.velocity.end());
     if (state_.islands == IslandSize::Large)
         placeKinematic(
             0, motion_.isAtMidpoint() ? halfOf(IslandSize::Large) - halfOf(IslandSize::Usual) : Real(0));

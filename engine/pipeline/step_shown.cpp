@@ -26,7 +26,8 @@ typename S::Vec normalTurn(const Contact<S>& contact, const RowLags<S>& lags) {
 template <class S>
 void Step<S>::showContacts() {
     ContactList<S>& contacts = contacts_.list();
-    const Real laterOfLarge = algorithms_.large ? Real(1) - halfOf(IslandSize::Large) / state_.size : Real(0);
+    const bool foundAgain = algorithms_.large && state_.searchTime > halfOf(IslandSize::Large);
+    const Real laterOfLarge = Real(1) - state_.searchTime / state_.size;
     tasks_.forEach(contacts.size(), kBodyGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts[k];
         if (contact.asleep) {  // shown where it fell asleep
@@ -39,6 +40,7 @@ void Step<S>::showContacts() {
             if (turn.squaredNorm() < kMostTurn<Real> * kMostTurn<Real>)
                 lags[0].normalTurn = laterOfLarge * turn;
             contact.lastNormal = contact.manifold.normal;
+            if (foundAgain) contact.lastNormal.setZero();  // another time than that of the next step
             return showAtEnd(contact, lags);
         }
         const RowLags<S>* lags = state_.anyUsual ? contactModel_.lagsOf(k) : nullptr;
@@ -53,7 +55,7 @@ Velocity<S> Step<S>::motionToEnd(const Contact<S>& contact, std::uint32_t body) 
     const Pose<S>& end = bodies_.pose[body];
     if (contact.islands == IslandSize::Usual || bodies_.constants[body].type != BodyType::Kinematic)
         return {typename S::Vec(end.p - lead.middle.p), smallTurn(lead.middle.q, end.q)};
-    const Real share = halfOf(IslandSize::Large) / halfOf(IslandSize::Usual);
+    const Real share = state_.searchTime / halfOf(IslandSize::Usual);
     return {typename S::Vec(end.p - lead.start.p - share * lead.motion.v),
             Ang(smallTurn(lead.start.q, end.q) - share * lead.motion.w)};
 }
