@@ -253,7 +253,7 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
     const std::uint32_t a = sa.body, b = sb.body;
     const Real t = pair.touch.time;
     for (const std::uint32_t i : {a, b})
-        if (flying_[i] && ways_[i].held) release(world, i, t);
+        if (flying_[i] && ways_[i].held) release(world, i, t, events);
     const Pose<S> A = ways_[a].at(t), B = ways_[b].at(t);
     const Real within = pair.touch.sinks ? sinkingDepth(pair) : Real(1e-6);
     const Real near =
@@ -297,6 +297,10 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
     if ((pair.touch.sinks ? slowest : fastest) <= world.restitutionThreshold && presses) {
         held = hold(world, a, b, t);
         friction += impactSolver_.frictionImpulse();
+        Way& reports = ways_[flying_[a] ? a : b];
+        reports.heldImpulse = held;
+        reports.heldFriction = impactSolver_.frictionImpulse();
+        reports.event = events.size();
     }
     if (!flying_[a]) bodies.pose[a] = endA;
     if (!flying_[b]) bodies.pose[b] = endB;
@@ -307,12 +311,18 @@ bool FlightImpacts<S>::collide(const MovedWorld<S>& world, const Pair& pair,
     return true;
 }
 
-/// Ends a contact at t, with the velocity that the body has then.
+/// Ends a contact at t, with the velocity that the body has then: it has given that part of its impulses.
 template <class S>
-void FlightImpacts<S>::release(const MovedWorld<S>& world, std::uint32_t i, Real t) {
+void FlightImpacts<S>::release(const MovedWorld<S>& world, std::uint32_t i, Real t,
+                               std::vector<ImpactEvent<S>>& events) {
     Way& way = ways_[i];
     const Real share = (t - way.begin) / (world.h - way.begin);
     const Vec first = Real(2) * way.velocity.v - way.end.v;
+    if (way.heldImpulse > 0) {
+        events[way.event].impulse -= (Real(1) - share) * way.heldImpulse;
+        events[way.event].friction -= (Real(1) - share) * way.heldFriction;
+    }
+    way.heldImpulse = 0;
     way.start = way.at(t);
     way.velocity = {Vec(first + share * (way.end.v - first)),
                     Ang(way.velocity.w + share * (way.end.w - way.velocity.w))};

@@ -97,6 +97,10 @@ class FlightImpacts {
         Vec pull = Vec::Zero();      ///< acceleration by forces
         bool held = false;           ///< in contact until the end of the step
         Velocity<S> end;             ///< velocity at the end of the step, if held
+        Real heldImpulse =
+            0;  ///< normal impulse of that contact [N s]; 0 in the way of the second of two bodies
+        Vec heldFriction = Vec::Zero();  ///< impulse of its friction on the second body [N s]
+        std::size_t event = 0;           ///< index of the impact that reports them
         Pose<S> at(Real t) const {
             const Real s = t - begin;
             return {start.p + s * velocity.v + (Real(0.5) * s * s) * acceleration,
@@ -146,7 +150,7 @@ class FlightImpacts {
     bool searchAgain(const MovedWorld<S>& world, const Pair& hit, std::uint32_t cluster);
     void goTo(const MovedWorld<S>& world, std::uint32_t body, Real t);
     void tumble(const MovedWorld<S>& world);
-    void release(const MovedWorld<S>& world, std::uint32_t body, Real t);
+    void release(const MovedWorld<S>& world, std::uint32_t body, Real t, std::vector<ImpactEvent<S>>& events);
     Real hold(const MovedWorld<S>& world, std::uint32_t a, std::uint32_t b, Real t);
 
     // --- by dense body index

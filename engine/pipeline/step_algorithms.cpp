@@ -74,9 +74,9 @@ IslandMethod<S> makeMethod(const WorldDef<S>& def, const std::string& solver) {
                             findAlgorithm(faultTable<S>(), "fault", def.fault).make() == nullptr;
     method.speculativeMotion =
         findsAhead ? std::max(def.speculativeMotion, typename S::Real(1)) : def.speculativeMotion;
-    // Continuous collision foresees the way of the whole step.
+    // Other integrators show contacts where the step began. Continuous collision foresees the way of the whole step.
     if (solverTraits(solver).contacts == ContactForm::Patches && def.secondSearch &&
-        !continuousCollisionTraits(def.continuousCollision).acts)
+        method.motion.isAtMidpoint() && !continuousCollisionTraits(def.continuousCollision).acts)
         method.secondSearch = method.substeps / 2;
     if (movesInBlocks<S>(def, solver)) method.motion.moveInBlocks(rotation.gyroscopic);
     return method;

@@ -200,7 +200,7 @@ class World {
     /// the step, shapes that overlap there, and impacts at their own times. Where they lie: contactsAtStepEnd().
     void readContacts(std::vector<ContactView<S>>& out) const;
     /// True if points, normals and separations of contacts are those of the poses at the end of the step, as with
-    /// `moreau_midpoint`; false: of the poses at its start, or in its middle, where they were found.
+    /// `moreau_midpoint`; false: of the poses at its start, where they were found.
     bool contactsAtStepEnd() const { return parts_.algorithms.usual.motion.isAtMidpoint(); }
     /// The rows of the last sub-step, solved or not yet.
     const ConstraintRows<S>& rows() const { return step_.rows; }

@@ -158,8 +158,11 @@ TEST(Choices, NoTwoOfAStageAreTheSame) {
         for (const std::string& value : option.values) {
             SCOPED_TRACE(option.key + "=" + value);
             // Rows are measured where contacts are rows, of large islands too.
-            const bool measures = option.key == "measure_residuals";
-            const Signature found = signatureOf(option.key + "=" + value + (measures ? ",solver=block" : ""));
+            const bool measures = option.key == "measure_residuals", ofWide = option.key == "second_search";
+            const Signature found = signatureOf(option.key + "=" + value +
+                                                (measures ? ",solver=block"
+                                                 : ofWide ? ",solver=wide"
+                                                          : ""));
             const auto& [work, isNewWork] = works.emplace(found.work, value);
             const auto& [motion, isNewMotion] = motions.emplace(found.motion, value);
             if (sameMotion.contains(option.key))
