@@ -18,7 +18,7 @@ void FlightImpacts<S>::findFlying(const MovedWorld<S>& world) {
     flying_.resize(n);
     for (std::size_t i = 0; i < n; ++i)
         flying_[i] = bodies.constants[i].type == BodyType::Dynamic && bodies.invMass[i] > 0 && !bound_[i] &&
-                     bodies.islands[i] == IslandSize::Usual;
+                     bodies.islands[i] == IslandKind::Usual;
     if (std::find(flying_.begin(), flying_.end(), 1) == flying_.end()) return;
     for (const Contact<S>& contact : world.contacts.list()) {
         const std::uint32_t a = contact.bodyA, b = contact.bodyB;

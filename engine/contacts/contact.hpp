@@ -11,7 +11,7 @@
 #include "engine/contacts/slot_list.hpp"
 #include "engine/core/ids.hpp"
 #include "engine/narrowphase/manifolds.hpp"
-#include "engine/state/island_size.hpp"
+#include "engine/state/island_kind.hpp"
 #include "engine/state/world_def.hpp"
 
 namespace rigor::engine {
@@ -50,7 +50,7 @@ struct alignas(64) Contact {
     bool impacts = false;      ///< some point has `impact`
     bool parted = false;       ///< has acted in this step, and is open since the second search
     bool driven = false;       ///< a surface has a velocity over its body: surfaceA, surfaceB
-    IslandSize islands = IslandSize::Usual;  ///< the method that solves its island
+    IslandKind islands = IslandKind::Usual;  ///< the method that solves its island
     PairCoefficients<S> coefficients;
     /// Row block of each point in this step; kPatch: solved as a patch, without rows; kNullIndex: not solved.
     PerPoint<std::uint32_t> block = [] {

@@ -40,7 +40,7 @@ struct ContactStep {
     bool bounces = true;                    ///< false: restitution is off
     bool meanSlip = false;                  ///< friction opposes the mean slip of the step (updateSlips)
     bool rowsLag = false;                   ///< the rows are those of the step's middle (row_lag.hpp)
-    IslandSize islands = IslandSize::Usual;      ///< the model is for the contacts of these islands
+    IslandKind islands = IslandKind::Usual;      ///< the model is for the contacts of these islands
     std::span<const std::uint8_t> mayLand = {};  ///< bodies that land at their own times; empty: none
     bool continues = false;  ///< the contacts were found again within the step: their totals go on
 };
@@ -125,6 +125,8 @@ class ContactModel {
     virtual ContactCounts counts() const = 0;
     /// Later sub-steps need the bodies' world inertia of the first.
     virtual bool keepsInertia() const { return false; }
+    /// store() reads what the whole step has led to, after its last sub-step alone.
+    virtual bool storesOnce() const { return false; }
     /// A solve can be done again from the velocities and impulses before it.
     virtual bool canRestart() const { return true; }
     /// Points that bounce may be found ahead: they do so when they touch.

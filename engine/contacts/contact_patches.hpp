@@ -31,6 +31,7 @@ class PatchContacts final : public ContactModel<S> {
                  const Tasks& tasks) override;
     ContactCounts counts() const override { return {patches_.points(), patches_.rows()}; }
     bool keepsInertia() const override { return true; }
+    bool storesOnce() const override { return true; }
     bool canRestart() const override { return false; }
     bool bouncesAhead() const override { return true; }
 

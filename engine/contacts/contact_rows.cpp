@@ -115,7 +115,7 @@ void prepareRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, bool s
     }
     for (std::size_t i = 0; i < contact.block.size(); ++i) {
         const bool has = i < static_cast<std::size_t>(contact.manifold.count) && !contact.asleep &&
-                         !contact.vetoed && preparePoint(bodies, step, contact, i);
+                         !contact.vetoed && !contact.parted && preparePoint(bodies, step, contact, i);
         contact.block[i] = has ? 0 : kNullIndex;
         contact.blocks += has;
     }
@@ -228,7 +228,7 @@ void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, cons
 template <class S>
 void RowContacts<S>::prepare(ContactList<S>&, const BodyArrays<S>&, const ContactStep<S>& step,
                              const Tasks&) {
-    stepBegins_ = true;
+    stepBegins_ = !step.continues;
     islands_ = step.islands;
 }
 

@@ -52,7 +52,7 @@ class RowContacts final : public ContactModel<S> {
                    const ConstraintRows<S>& rows);
 
     ContactCounts counts_;
-    IslandSize islands_ = IslandSize::Usual;
+    IslandKind islands_ = IslandKind::Usual;
     /// A point that slid before the forces of the sub-step acted.
     struct Slip {
         std::uint32_t block = 0;

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "engine/contacts/bounding_volume.hpp"
-#include "engine/state/island_size.hpp"
+#include "engine/state/island_kind.hpp"
 
 namespace rigor::engine {
 
@@ -22,8 +22,8 @@ struct ContactSearch {
 
     /// Time in which the motion of shapes is looked ahead, of all or of some pairs [s].
     Real longestMotionTime() const { return motionTime > 0 ? motionTime : largeMotionTime; }
-    Real toleranceOf(IslandSize islands) const {
-        return islands == IslandSize::Large ? largeCacheTolerance : cacheTolerance;
+    Real toleranceOf(IslandKind islands) const {
+        return islands == IslandKind::Large ? largeCacheTolerance : cacheTolerance;
     }
 };
 

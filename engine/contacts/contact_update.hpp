@@ -26,7 +26,7 @@ namespace rigor::engine {
 struct SecondSearch {
     /// Flag of each body, 1: its motion was not foreseen by the first search. Empty: the search is the first.
     std::span<const std::uint8_t> disturbed;
-    IslandSize islands = IslandSize::Usual;  ///< size of the islands that take part
+    IslandKind islands = IslandKind::Usual;  ///< kind of the islands that take part
 };
 
 /// Input that contacts are made from in one step.

@@ -88,7 +88,7 @@ void ShapeSet<S>::update(const BodyArrays<S>& bodies, const ContactSearch<S>& se
         }
         motions_[i] = turns_[i] = 0;
         ways_[i].setZero();
-        ahead_[i] = search.motionTime > 0 || bodies.islands[record.body] == IslandSize::Large;
+        ahead_[i] = search.motionTime > 0 || bodies.islands[record.body] == IslandKind::Large;
         if (!isStatic && motionTime > 0)
             growByMotion(bodies, i, search.speculativeDistance + tolerance_[i], motionTime);
         if (!isStatic && ahead.looksAhead()) ahead.growBox(static_cast<std::uint32_t>(i), boxes_[i]);

@@ -17,7 +17,7 @@ void Motion<S>::setInertia(BodyArrays<S>& bodies, const Tasks& tasks) {
 }
 
 template <class S>
-bool Motion<S>::toMidpoint(BodyArrays<S>& bodies, const PerIslandSize<Real>& half, bool same,
+bool Motion<S>::toMidpoint(BodyArrays<S>& bodies, const PerIslandKind<Real>& half, bool same,
                            const Tasks& tasks) {
     const std::size_t n = bodies.size();
     Midpoints<S>& midpoints = bodies.midpoints;
@@ -90,7 +90,7 @@ void Motion<S>::flyToMidpoint(BodyArrays<S>& bodies, std::span<const std::uint8_
 }
 
 template <class S>
-void Motion<S>::toEnd(BodyArrays<S>& bodies, IslandSize islands, std::span<const Velocity<S>> way, Real half,
+void Motion<S>::toEnd(BodyArrays<S>& bodies, IslandKind islands, std::span<const Velocity<S>> way, Real half,
                       const Tasks& tasks) {
     Midpoints<S>& midpoints = bodies.midpoints;
     tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {

@@ -17,13 +17,6 @@
 
 namespace rigor::engine {
 
-/// A value for each size of islands.
-template <class T>
-struct PerIslandSize {
-    T usual{}, large{};
-    const T& operator[](IslandSize size) const { return size == IslandSize::Usual ? usual : large; }
-};
-
 template <class S>
 class Motion {
   public:
@@ -37,20 +30,20 @@ class Motion {
 
     /// Steps lead from midpoint to midpoint: toMidpoint() before anything else, toEnd() after it.
     bool isAtMidpoint() const { return integrator_.atMidpoint; }
-    /// Moves bodies from the end of the last step to their midpoints: `half` [s] on, for each size of
+    /// Moves bodies from the end of the last step to their midpoints: `half` [s] on, for each kind of
     /// islands. The midpoints that are known count if `same`: the last (sub-)step was as long. True: some were
     /// not known.
-    bool toMidpoint(BodyArrays<S>& bodies, const PerIslandSize<Real>& half, bool same,
+    bool toMidpoint(BodyArrays<S>& bodies, const PerIslandKind<Real>& half, bool same,
                     const Tasks& tasks = Tasks::one());
     /// The way of the flagged bodies to midpoints `half` [s] on, as the move of a (sub-)step without forces: for
     /// continuous collision, which may change it until finish(). Other bodies stay where they are.
     void flyToMidpoint(BodyArrays<S>& bodies, std::span<const std::uint8_t> flies, Real half);
     /// Moves a body by `time` [s], which may be negative, as free motion does without forces.
     void coast(BodyArrays<S>& bodies, std::size_t i, Real time) const;
-    /// Takes the poses and velocities of the bodies of islands of one size for their next midpoints and moves
+    /// Takes the poses and velocities of the bodies of islands of one kind for their next midpoints and moves
     /// the bodies back by `half` [s]: to the end of the step. `way` are their velocities since the midpoint
     /// before; of kinematic bodies their own.
-    void toEnd(BodyArrays<S>& bodies, IslandSize islands, std::span<const Velocity<S>> way, Real half,
+    void toEnd(BodyArrays<S>& bodies, IslandKind islands, std::span<const Velocity<S>> way, Real half,
                const Tasks& tasks = Tasks::one());
     // --- free rotation of one body over h [s] from the orientation q and the angular velocity w there
     /// Mean angular velocity.

@@ -5,10 +5,12 @@
 // islands. One whose traits name a solver for large islands (SolverTraits::largeIslands) has two: an island
 // with more contacts than WorldDef::islandContacts is large. With joints in it as many contacts as there are joints
 // count twice: sweeps over both converge slowly, and mostly make all iterations that they may. An island that is
-// large stays so until it has fewer than half as many, so that it does not change to and fro.
+// large stays so until it has fewer than half as many, so that it does not change to and fro. With large islands there
+// is a third method: islands that are not large, but in violent motion, are solved as the others with contacts that are
+// found for each half of the step (step_violent.cpp).
 //
-// Islands do not act on each other within a step, so the step is made twice, each time of the islands of one
-// method while the bodies of the others are paused (Step::beginIslands). Two bodies that a force connects count
+// Islands do not act on each other within a step, so the step is made up to three times, each time of the islands of
+// one method while the bodies of the others are paused (Step::beginIslands). Two bodies that a force connects count
 // as one island here.
 #pragma once
 
@@ -20,7 +22,7 @@
 #include "engine/core/clone_ptr.hpp"
 #include "engine/integrators/motion.hpp"
 #include "engine/solvers/solver.hpp"
-#include "engine/state/island_size.hpp"
+#include "engine/state/island_kind.hpp"
 #include "engine/state/world_def.hpp"
 
 namespace rigor::engine {
@@ -47,20 +49,24 @@ inline std::size_t countedContacts(std::size_t contacts, std::size_t joints) {
     return contacts + std::min(contacts, joints);
 }
 
-/// The islands of a step by size, and data to pause those that take no part.
+/// The islands of a step by kind, and data to pause those that take no part.
 template <class S>
 struct IslandSort {
     struct Counts {
         std::uint32_t contacts = 0, joints = 0;
-        std::uint32_t large = 0;  ///< contacts that were solved as of a large island
+        std::uint32_t large = 0;    ///< contacts that were solved as of a large island
+        std::uint32_t violent = 0;  ///< contacts whose bodies close in fast
+        bool bounces = false;       ///< has contacts with restitution
     };
     // --- by island
     std::vector<Counts> counts;
-    std::vector<std::uint8_t> large;
+    std::vector<IslandKind> kind;
+    std::vector<IslandKind> joined;  ///< scratch
     // --- by body
-    std::vector<IslandSize> before;    ///< sizes in the last step
-    std::vector<std::uint8_t> paused;  ///< 1: takes no part in the half of the step that runs
-    std::vector<Pose<S>> startPoses;   ///< poses where the step began
+    std::vector<IslandKind> before;      ///< kinds in the last step
+    std::vector<std::uint8_t> paused;    ///< 1: takes no part in the half of the step that runs
+    std::vector<Pose<S>> startPoses;     ///< poses where the step began
+    std::vector<std::uint32_t> violent;  ///< indices of contacts whose bodies close in fast
 };
 
 }  // namespace rigor::engine

@@ -20,7 +20,7 @@ struct JointStep {
     BiasRule<typename S::Real> bias;         ///< bias of the rows from position errors
     typename S::Real warmStart;              ///< factor on the last impulses; 0: none
     bool relinearized;                       ///< biases are re-linearised at the predicted end of the step
-    IslandSize islands = IslandSize::Usual;  ///< rows are of the joints of these islands
+    IslandKind islands = IslandKind::Usual;  ///< rows are of the joints of these islands
     bool atMidpoint = false;                 ///< the step leads from midpoint to midpoint
     bool begins = true;                      ///< the first sub-step
 };
@@ -47,7 +47,7 @@ class JointSet {
         typename S::Vec armB = S::Vec::Zero();   ///< B's anchor from its centre when the rows were made [m]
         std::uint32_t firstRow = 0;              ///< its rows in this step follow each other
         std::uint32_t rows = 0, equalities = 0;  ///< all rows; equality rows, which come first
-        IslandSize islands = IslandSize::Usual;  ///< the method that solves its island
+        IslandKind islands = IslandKind::Usual;  ///< the method that solves its island
         bool solved = false;                     ///< its rows are among those of this half of the step
         std::uint32_t block = 0;                 ///< block of the equality rows; each other row has its own
         /// Rows beside those of its axes; -1: not known yet.

@@ -144,15 +144,15 @@ void visitState(A& archive, World& world) {
     }
     auto& overlaps = world.contacts.sensors().overlaps();
     if (!std::is_same_v<A, HashArchive> || !overlaps.empty()) visitOverlaps(archive, overlaps);
-    // These follow from the rest of the state where no island is large.
-    const bool large = std::any_of(bodies.islands.begin(), bodies.islands.end(),
-                                   [](IslandSize size) { return size == IslandSize::Large; });
-    if (!std::is_same_v<A, HashArchive> || large) {
+    // These follow from the rest of the state where all islands are usual.
+    const bool others = std::any_of(bodies.islands.begin(), bodies.islands.end(),
+                                    [](IslandKind kind) { return kind != IslandKind::Usual; });
+    if (!std::is_same_v<A, HashArchive> || others) {
         visitValue(archive, bodies.islands);
         visitValue(archive, world.contacts.candidates().cachedSearch().largeCacheTolerance);
     }
     // If no manifolds are cached, the candidates follow from the rest of the state.
-    if (!std::is_same_v<A, HashArchive> || world.def.cacheTolerance > 0 || large)
+    if (!std::is_same_v<A, HashArchive> || world.def.cacheTolerance > 0 || others)
         visitManifoldCache(archive, world.contacts.candidates());
 }
 

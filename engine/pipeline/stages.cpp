@@ -79,7 +79,7 @@ void Step<S>::findPairs() {
     search.bouncesAhead = contactModel_.bouncesAhead() || locatesLandings();
     if (algorithms_.large) {
         search.largeCacheTolerance = algorithms_.large->cacheTolerance;
-        if (std::find(bodies_.islands.begin(), bodies_.islands.end(), IslandSize::Large) !=
+        if (std::find(bodies_.islands.begin(), bodies_.islands.end(), IslandKind::Large) !=
             bodies_.islands.end())
             search.largeMotionTime = algorithms_.large->speculativeMotion * state_.size;
         search.bouncesAhead = search.bouncesAhead && algorithms_.large->contactModel->bouncesAhead();

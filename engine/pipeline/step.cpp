@@ -46,11 +46,11 @@ const char* phaseName(Phase phase) {
 template <class S>
 template <class Visitor>
 void Step<S>::forEachStage(const WorldParts<S>& world, const StepState<S>& state, const Visitor& each) {
-    each(IslandSize::Usual, Phase::BroadPhase, 0, &Step::findPairs);
-    each(IslandSize::Usual, Phase::NarrowPhase, 0, &Step::findManifolds);
+    each(IslandKind::Usual, Phase::BroadPhase, 0, &Step::findPairs);
+    each(IslandKind::Usual, Phase::NarrowPhase, 0, &Step::findManifolds);
     // Usual islands last: their rows can be read after the step.
-    for (const IslandSize islands : {IslandSize::Large, IslandSize::Usual}) {
-        if (!(islands == IslandSize::Large ? state.anyLarge : state.anyUsual)) continue;
+    for (const IslandKind islands : {IslandKind::Large, IslandKind::Violent, IslandKind::Usual}) {
+        if (!state.any[islands]) continue;
         const IslandMethod<S>& method = world.algorithms.method(islands);
         for (int substep = 0; substep < method.substeps; ++substep) {
             const auto stage = [&](Phase phase, Work work) { each(islands, phase, substep, work); };
@@ -74,11 +74,12 @@ void Step<S>::forEachStage(const WorldParts<S>& world, const StepState<S>& state
 }
 
 template <class S>
-Step<S>::Step(WorldParts<S>& world, StepState<S>& state, IslandSize islands)
+Step<S>::Step(WorldParts<S>& world, StepState<S>& state, IslandKind islands)
     : world_(world),
       state_(state),
       def_(world.def),
       algorithms_(world.algorithms),
+      kind_(islands),
       method_(world.algorithms.method(islands)),
       tasks_(world.tasks),
       bodies_(world.bodies.arrays()),
@@ -106,8 +107,7 @@ void Step<S>::begin(Real h) {
     state_.stagesDone = state_.substep = 0;
     state_.size = h;
     state_.substepSize = h / Real(algorithms_.usual.substeps);
-    state_.anyUsual = true;
-    state_.anyLarge = false;
+    state_.any = {true};
 }
 
 template <class S>
@@ -115,7 +115,7 @@ void Step<S>::runAll() {
     try {
         tasks_.withWorkers([this] {
             Clock::time_point mark = Clock::now();
-            forEachStage(world_, state_, [&](IslandSize islands, Phase phase, int substep, Work work) {
+            forEachStage(world_, state_, [&](IslandKind islands, Phase phase, int substep, Work work) {
                 Step(world_, state_, islands).run(phase, substep, work, mark);
             });
             end();
@@ -149,7 +149,7 @@ void Step<S>::runNext() {
     try {
         tasks_.withWorkers([&] {
             Clock::time_point mark = Clock::now();
-            forEachStage(world_, state_, [&](IslandSize islands, Phase phase, int substep, Work work) {
+            forEachStage(world_, state_, [&](IslandKind islands, Phase phase, int substep, Work work) {
                 if (stages++ == next) Step(world_, state_, islands).run(phase, substep, work, mark);
             });
             if (state_.stagesDone == stages) end();
@@ -171,7 +171,7 @@ template <class S>
 typename Step<S>::Stage Step<S>::next(const WorldParts<S>& world, const StepState<S>& state) {
     Stage next;
     int stages = 0;
-    forEachStage(world, state, [&](IslandSize, Phase phase, int substep, Work) {
+    forEachStage(world, state, [&](IslandKind, Phase phase, int substep, Work) {
         if (stages++ == state.stagesDone) next = {phase, substep};
     });
     return next;
@@ -221,7 +221,7 @@ bool Step<S>::isFinite() const {
 }
 
 #define RIGOR_INSTANTIATE(S)                                           \
-    template Step<S>::Step(WorldParts<S>&, StepState<S>&, IslandSize); \
+    template Step<S>::Step(WorldParts<S>&, StepState<S>&, IslandKind); \
     template void Step<S>::begin(Real);                                \
     template void Step<S>::runAll();                                   \
     template void Step<S>::runNext();                                  \

@@ -45,9 +45,9 @@ struct StepState {
     Real size = 0, substepSize = 0;  ///< [s]
     Real lastSubstepSize = 0;        ///< sub-step of the impulses that the rows start from [s]
     // --- which islands take part (island_method.hpp)
-    IslandSize islands =
-        IslandSize::Usual;  ///< size of those that the stage works on that runs, or has run last
-    bool anyUsual = true, anyLarge = false;  ///< islands of that size that are awake
+    IslandKind islands =
+        IslandKind::Usual;          ///< kind of those that the stage works on that runs, or has run last
+    PerIslandKind<bool> any{true};  ///< islands of that kind that are awake
     IslandSort<S> sort;
     // --- the problem of the sub-step
     JointStep<S> jointStep{};
@@ -63,7 +63,7 @@ struct StepState {
     std::vector<Velocity<S>> foreseen;    ///< velocities that the first search has looked ahead with
     std::vector<std::uint8_t> disturbed;  ///< bodies that have others by now
     bool searchedAgain = false;           ///< in the islands that the stage works on
-    Real searchTime = 0;         ///< time of the step at which contacts of large islands were found [s]
+    PerIslandKind<Real> searchTime;  ///< time of the step at which contacts of the islands were found [s]
     std::vector<Lead<S>> leads;  ///< ways to the midpoints; integrators that have none leave them as they are
     DisjointSets jointed;        ///< bodies that joints connect
     std::vector<std::uint8_t> leaving;  ///< roots of those of which one leaves its midpoint
@@ -103,7 +103,7 @@ class Step {
     };
 
     /// The step of the islands that take part in it now.
-    Step(WorldParts<S>& world, StepState<S>& state, IslandSize islands = IslandSize::Usual);
+    Step(WorldParts<S>& world, StepState<S>& state, IslandKind islands = IslandKind::Usual);
 
     /// Begins a step of h [s]. Throws EngineError for a size out of range, and where a step has not ended.
     void begin(Real h);
@@ -124,8 +124,9 @@ class Step {
     void abandon();
     void injectFault(Phase phase);
 
-    // --- islands by size
+    // --- islands by kind
     void sortIslands();
+    bool isShared() const;
     void joinByForces(const Islands& islands);
     void beginIslands();
     void pauseOthers();
@@ -153,9 +154,9 @@ class Step {
     // step_midpoints.cpp
     void toMidpoints();
     bool moveToMidpoints(bool same);
-    Real halfOf(IslandSize islands) const;
+    Real halfOf(IslandKind islands) const;
     void measureLead(std::size_t body);
-    void changeHalves(std::span<const IslandSize> before);
+    void changeHalves(std::span<const IslandKind> before);
     void moveContact(Contact<S>& contact, const typename S::Vec& pA, const Velocity<S>& a,
                      const typename S::Vec& pB, const Velocity<S>& b) const;
     void toEnd();
@@ -176,6 +177,11 @@ class Step {
     // step_second_search.cpp
     bool findDisturbed();
     bool hasMovingSurface() const;
+    // step_violent.cpp
+    void findViolent();
+    static bool mayBeViolent(std::size_t contacts);
+    static bool isViolent(const typename IslandSort<S>::Counts& counts);
+    void countViolent(const Islands& islands);
     // step_bounces.cpp
     void placeBounces();
     MovingShape<S> movingShapeOf(std::uint32_t shape) const;
@@ -211,7 +217,8 @@ class Step {
     // --- parts of both, by the names that the stages use
     const WorldDef<S>& def_;
     StepAlgorithms<S>& algorithms_;
-    IslandMethod<S>& method_;  ///< method of the islands that take part
+    IslandKind kind_;          ///< kind of the islands that take part
+    IslandMethod<S>& method_;  ///< their method
     const Tasks& tasks_;
     BodyArrays<S>& bodies_;
     Contacts<S>& contacts_;

@@ -95,6 +95,15 @@ IslandMethod<S> makeLargeMethod(const WorldDef<S>& def) {
     return makeMethod<S>(fast, std::string(solverTraits(def.solver).largeIslands));
 }
 
+/// The usual method with contacts that are found for each half of the step.
+template <class S>
+IslandMethod<S> makeViolentMethod(const IslandMethod<S>& usual) {
+    IslandMethod<S> method = usual;
+    method.substeps = 2;
+    method.secondSearch = 1;
+    return method;
+}
+
 }  // namespace
 
 template <class S>
@@ -132,6 +141,9 @@ StepAlgorithms<S>::StepAlgorithms(const WorldDef<S>& def) {
                      !restitution->solvesImpacts() && fault == nullptr;
     if (!solverTraits(def.solver).largeIslands.empty() && allowsLargeIslands<S>(def, *this))
         large = makeLargeMethod<S>(def);
+    // Continuous collision may come later, when islands are violent: they have the method, and become usual (step_violent.cpp).
+    if (large && def.secondSearch && usual.motion.isAtMidpoint() && usual.substeps == 1)
+        violent = makeViolentMethod<S>(usual);
 }
 
 #define RIGOR_INSTANTIATE(S) template struct StepAlgorithms<S>;

@@ -28,13 +28,17 @@ struct StepAlgorithms {
     /// range, and for choices that do not go together.
     explicit StepAlgorithms(const WorldDef<S>& def);
 
-    IslandMethod<S>& method(IslandSize islands) { return islands == IslandSize::Large ? *large : usual; }
-    const IslandMethod<S>& method(IslandSize islands) const {
-        return islands == IslandSize::Large ? *large : usual;
+    const IslandMethod<S>& method(IslandKind islands) const {
+        return islands == IslandKind::Usual ? usual : islands == IslandKind::Large ? *large : *violent;
+    }
+    IslandMethod<S>& method(IslandKind islands) {
+        return const_cast<IslandMethod<S>&>(std::as_const(*this).method(islands));
     }
 
     IslandMethod<S> usual;
     std::optional<IslandMethod<S>> large;  ///< method of large islands, where they have one of their own
+    std::optional<IslandMethod<S>>
+        violent;  ///< method of islands in violent motion; only where large ones have theirs
     ClonePtr<BroadPhase<S>> broadPhase;
     BoundingVolume boundingVolume;
     std::shared_ptr<const NarrowPhase<S>> narrowPhase;

@@ -17,20 +17,11 @@
 #include "engine/contacts/contact_rows.hpp"
 #include "engine/contacts/row_lag.hpp"
 #include "engine/contacts/time_of_impact.hpp"
+#include "engine/pipeline/point_speed.hpp"
 #include "engine/pipeline/step.hpp"
 
 namespace rigor::engine {
 namespace {
-
-/// Velocity of a point's parts along the normal; < 0: they approach.
-template <class S>
-typename S::Real normalSpeed(const BodyArrays<S>& bodies, const Contact<S>& contact,
-                             const ManifoldPoint<S>& point) {
-    const std::uint32_t a = contact.bodyA, b = contact.bodyB;
-    const typename S::Vec &n = contact.manifold.normal, rA = point.pointA - bodies.pose[a].p,
-                          rB = point.pointB - bodies.pose[b].p;
-    return n.dot(relativeVelocity<S>({rA, rB, n}, bodies.velocity[a], bodies.velocity[b]));
-}
 
 /// Some point is apart, none overlaps, and one closes its gap within the step.
 template <class S>
@@ -148,7 +139,7 @@ void Step<S>::findBounces() {
     tasks_.forEach(contacts.size(), kBodyGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts[k];
         contact.bounceTime = 0;
-        if (contact.islands == IslandSize::Large || contact.asleep || contact.speculative) return;
+        if (contact.islands != IslandKind::Usual || contact.asleep || contact.speculative) return;
         if (contact.vetoed || !(contact.coefficients.restitution > 0) || contact.manifold.count == 0) return;
         if (!closes<S>(bodies_, contact, h)) return;
         if (contact.piece != kNullIndex) {  // the gap as it is: surfaces mostly take no momentum

@@ -64,7 +64,7 @@ void Step<S>::findFirstFrames() {
         Contact<S>& contact = contacts[k];
         const std::uint32_t a = contact.bodyA, b = contact.bodyB;
         const bool known = !contact.lastNormal.isZero(0) && !state_.renewed[a] && !state_.renewed[b];
-        if (known || contact.islands == IslandSize::Large || contact.asleep || contact.bounceTime > 0) return;
+        if (known || contact.islands != IslandKind::Usual || contact.asleep || contact.bounceTime > 0) return;
         contact.lastNormal.setZero();
         if (contact.piece != kNullIndex || contact.speculative || contact.placed) return;
         Real distance = def_.speculativeDistance;

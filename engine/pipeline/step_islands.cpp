@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The step by island size (island_method.hpp): which islands are large, and pausing of the others.
+// The step by kinds of islands (island_method.hpp): which islands are of which kind, and pausing of the others.
 //
 // A paused body is like one asleep, but keeps its velocity: no forces, no rows, no motion. Kinematic bodies
-// take part in both halves of the step, each time from where they began, and end where the usual method takes them.
+// take part in every pass over the step, each time from where they began, and end where the usual method takes them.
 #include <algorithm>
 #include <utility>
 
@@ -13,13 +13,16 @@
 namespace rigor::engine {
 
 /// Sorts the islands by their contacts. Contacts and joints whose island has changed its method keep their
-/// impulses as forces: the sub-steps of the two methods differ in length.
+/// impulses as forces: the sub-steps of the methods differ in length.
 template <class S>
 void Step<S>::sortIslands() {
-    // Most small worlds end here.
     const auto most = static_cast<std::size_t>(def_.islandContacts);
+    findViolent();
+    const auto isUsual = [](IslandKind kind) { return kind == IslandKind::Usual; };
+    // Most small worlds end here.
     if (countedContacts(contacts_.list().size(), joints_.records().size()) <= most &&
-        std::find(bodies_.islands.begin(), bodies_.islands.end(), IslandSize::Large) == bodies_.islands.end())
+        !mayBeViolent(state_.sort.violent.size()) &&
+        std::all_of(bodies_.islands.begin(), bodies_.islands.end(), isUsual))
         return;
     IslandSort<S>& sort = state_.sort;
     const Islands& islands = world_.currentIslands();
@@ -31,57 +34,63 @@ void Step<S>::sortIslands() {
         const std::uint32_t k = islandOf(contact.bodyA, contact.bodyB);
         if (k == kNullIndex) continue;
         ++sort.counts[k].contacts;
-        sort.counts[k].large += contact.islands == IslandSize::Large;
+        sort.counts[k].large += contact.islands == IslandKind::Large;
+        sort.counts[k].bounces |= contact.coefficients.restitution > 0;
     }
     for (const auto& record : joints_.records())
         if (const std::uint32_t k = islandOf(record.joint.a, record.joint.b); k != kNullIndex)
             ++sort.counts[k].joints;
-    sort.large.assign(islands.count(), 0);
+    countViolent(islands);
+    sort.kind.assign(islands.count(), IslandKind::Usual);
     bool any = false;
     for (std::size_t k = 0; k < islands.count(); ++k) {
         const typename IslandSort<S>::Counts& c = sort.counts[k];
         const std::size_t size = countedContacts(c.contacts, c.joints);
-        sort.large[k] = size > most || (2 * c.large > c.contacts && 2 * size > most);
-        any = any || sort.large[k];
+        if (size > most || (2 * c.large > c.contacts && 2 * size > most))
+            sort.kind[k] = IslandKind::Large;
+        else if (isViolent(c))
+            sort.kind[k] = IslandKind::Violent;
+        any = any || sort.kind[k] != IslandKind::Usual;
     }
     if (any) joinByForces(islands);
-    state_.anyUsual = state_.anyLarge = false;
+    state_.any = {};
     for (std::size_t k = 0; k < islands.count(); ++k)
-        if (!bodies_.asleep[islands.members(k).front()])
-            (sort.large[k] ? state_.anyLarge : state_.anyUsual) = true;
-    state_.anyUsual = state_.anyUsual || !state_.anyLarge;
-    const auto sizeOf = [&](std::uint32_t a, std::uint32_t b) {
+        if (!bodies_.asleep[islands.members(k).front()]) state_.any[sort.kind[k]] = true;
+    state_.any.usual = state_.any.usual || !(state_.any.large || state_.any.violent);
+    const auto kindOf = [&](std::uint32_t a, std::uint32_t b) {
         const std::uint32_t k = islandOf(a, b);
-        return k != kNullIndex && sort.large[k] ? IslandSize::Large : IslandSize::Usual;
+        return k != kNullIndex ? sort.kind[k] : IslandKind::Usual;
     };
-    const Real shorter = static_cast<Real>(algorithms_.usual.substeps) / Real(algorithms_.large->substeps);
-    const auto factorTo = [&](IslandSize to) {
-        return to == IslandSize::Large ? shorter : Real(1) / shorter;
+    // Impulses are of sub-steps.
+    const auto factor = [&](IslandKind from, IslandKind to) {
+        return Real(algorithms_.method(from).substeps) / Real(algorithms_.method(to).substeps);
     };
     for (Contact<S>& contact : contacts_.list()) {
-        const IslandSize size = sizeOf(contact.bodyA, contact.bodyB);
-        if (size == contact.islands) continue;
-        contact.islands = size;
+        const IslandKind kind = kindOf(contact.bodyA, contact.bodyB);
+        if (kind == contact.islands) continue;
+        const Real share = factor(contact.islands, kind);
+        contact.islands = kind;
         contact.lastNormal.setZero();  // another midpoint than that of the last step
         for (auto& impulse : contact.impulses) {
-            impulse.normal *= factorTo(size);
-            impulse.friction *= factorTo(size);
+            impulse.normal *= share;
+            impulse.friction *= share;
         }
-        contact.moment *= factorTo(size);
+        contact.moment *= share;
     }
     sort.before.assign(bodies_.islands.begin(), bodies_.islands.end());
-    for (std::uint32_t i = 0; i < bodies_.size(); ++i) bodies_.islands[i] = sizeOf(i, i);
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i) bodies_.islands[i] = kindOf(i, i);
     for (auto& record : joints_.records()) {
-        const IslandSize size = sizeOf(record.joint.a, record.joint.b);
-        if (size == record.islands) continue;
-        record.islands = size;
-        for (Real& impulse : record.impulse) impulse *= factorTo(size);
+        const IslandKind kind = kindOf(record.joint.a, record.joint.b);
+        if (kind == record.islands) continue;
+        const Real share = factor(record.islands, kind);
+        record.islands = kind;
+        for (Real& impulse : record.impulse) impulse *= share;
     }
     changeHalves(sort.before);
     if (any) sort.startPoses.assign(bodies_.pose.begin(), bodies_.pose.end());
 }
 
-/// Islands that forces connect are of one size: each end sees the other where it is at the same time.
+/// Islands that forces connect are of one kind: each end sees the other where it is at the same time.
 template <class S>
 void Step<S>::joinByForces(const Islands& islands) {
     IslandSort<S>& sort = state_.sort;
@@ -89,8 +98,9 @@ void Step<S>::joinByForces(const Islands& islands) {
         changed = false;
         for (const auto& record : world_.forces.records()) {
             const std::uint32_t a = islands.islandOf(record.place.a), b = islands.islandOf(record.place.b);
-            if (a == kNullIndex || b == kNullIndex || sort.large[a] == sort.large[b]) continue;
-            sort.large[a] = sort.large[b] = 1;
+            if (a == kNullIndex || b == kNullIndex || sort.kind[a] == sort.kind[b]) continue;
+            const bool large = sort.kind[a] == IslandKind::Large || sort.kind[b] == IslandKind::Large;
+            sort.kind[a] = sort.kind[b] = large ? IslandKind::Large : IslandKind::Usual;
             changed = true;
         }
     }
@@ -99,24 +109,30 @@ void Step<S>::joinByForces(const Islands& islands) {
 /// Lets the islands of this step's method take part, and pauses the others.
 template <class S>
 void Step<S>::beginIslands() {
-    state_.islands = &method_ == &algorithms_.usual ? IslandSize::Usual : IslandSize::Large;
+    const IslandKind kind = state_.islands = kind_;
     state_.substepSize = state_.size / Real(method_.substeps);
     state_.lastSubstepSize = world_.clock.lastSubstepSize;
-    if (state_.islands == IslandSize::Large)
-        state_.lastSubstepSize *= Real(algorithms_.usual.substeps) / Real(method_.substeps);
     motion_.beginStep();
     state_.searchedAgain = false;
-    if (state_.islands == IslandSize::Large) state_.searchTime = halfOf(IslandSize::Large);
     if (method_.secondSearch > 0) state_.foreseen.assign(bodies_.velocity.begin(), bodies_.velocity.end());
-    if (state_.islands == IslandSize::Large)
-        placeKinematic(
-            0, motion_.isAtMidpoint() ? halfOf(IslandSize::Large) - halfOf(IslandSize::Usual) : Real(0));
-    if (!state_.anyUsual || !state_.anyLarge) return;
+    if (kind != IslandKind::Usual) {
+        state_.lastSubstepSize *= Real(algorithms_.usual.substeps) / Real(method_.substeps);
+        state_.searchTime[kind] = halfOf(kind);
+        placeKinematic(0, motion_.isAtMidpoint() ? halfOf(kind) - halfOf(IslandKind::Usual) : Real(0));
+    }
+    if (!isShared()) return;
     pauseOthers();
-    // Kinematic bodies take part with both sizes, each time from where they were.
-    if (state_.islands == IslandSize::Usual) return placeKinematic(0);
+    // Kinematic bodies take part with all kinds, each time from where they were.
+    if (kind == IslandKind::Usual) return placeKinematic(0);
+    if (kind == IslandKind::Violent && state_.any.large) return;
     for (Contact<S>& contact : contacts_.list())  // they named rows of the last step
-        if (contact.islands == IslandSize::Usual) contact.block.fill(kNullIndex);
+        if (contact.islands != kind) contact.block.fill(kNullIndex);
+}
+
+/// Whether islands of several kinds are awake.
+template <class S>
+bool Step<S>::isShared() const {
+    return int(state_.any.usual) + int(state_.any.large) + int(state_.any.violent) > 1;
 }
 
 /// Puts kinematic bodies where so many sub-steps of the usual method have taken them, and `later` [s] more.
@@ -151,7 +167,7 @@ void Step<S>::pauseOthers() {
 /// Empty where no body is paused.
 template <class S>
 std::span<const std::uint8_t> Step<S>::pausedBodies() const {
-    if (state_.anyUsual && state_.anyLarge) return state_.sort.paused;
+    if (isShared()) return state_.sort.paused;
     return {};
 }
 
@@ -165,13 +181,13 @@ void Step<S>::resume(std::uint32_t body) {
 template <class S>
 void Step<S>::endIslands() {
     // The way of kinematic bodies does not depend on which islands there are.
-    if (!state_.anyUsual) placeKinematic(algorithms_.usual.substeps);
+    if (!state_.any.usual) placeKinematic(algorithms_.usual.substeps);
     world_.clock.lastSubstepSize = state_.size / Real(algorithms_.usual.substeps);
     for (std::uint32_t i = 0; i < state_.sort.paused.size(); ++i) resume(i);
-    if (state_.anyUsual && state_.anyLarge) sortImpacts();
+    if (isShared()) sortImpacts();
 }
 
-/// Sorts them by time. They are few, and in order within each half of the step.
+/// Sorts them by time. They are few, and in order within each pass.
 template <class S>
 void Step<S>::sortImpacts() {
     const auto earlier = [](const ImpactEvent<S>& a, const ImpactEvent<S>& b) { return a.time < b.time; };

@@ -43,7 +43,7 @@ void Step<S>::endFlights() {
 
 /// Time from the end of a step to the midpoint of an island's first sub-step.
 template <class S>
-typename S::Real Step<S>::halfOf(IslandSize islands) const {
+typename S::Real Step<S>::halfOf(IslandKind islands) const {
     return Real(0.5) * state_.size / Real(algorithms_.method(islands).substeps);
 }
 
@@ -69,10 +69,12 @@ void Step<S>::toMidpoints() {
 /// True: midpoints were found anew. With continuous collision bodies collide on the way there.
 template <class S>
 bool Step<S>::moveToMidpoints(bool same) {
-    const Real half = halfOf(IslandSize::Usual);
-    const Real ofLarge = algorithms_.large ? halfOf(IslandSize::Large) : Real(0);
-    if (!algorithms_.ccdToMidpoints) return motion_.toMidpoint(bodies_, {half, ofLarge}, same, tasks_);
-    if (!motion_.toMidpoint(bodies_, {Real(0), Real(0)}, same, tasks_)) return false;
+    const Real half = halfOf(IslandKind::Usual);
+    const Real ofLarge = algorithms_.large ? halfOf(IslandKind::Large) : Real(0);
+    const Real ofViolent = algorithms_.violent ? halfOf(IslandKind::Violent) : Real(0);
+    if (!algorithms_.ccdToMidpoints)
+        return motion_.toMidpoint(bodies_, {half, ofLarge, ofViolent}, same, tasks_);
+    if (!motion_.toMidpoint(bodies_, {}, same, tasks_)) return false;
     ContinuousCollision<S>& ccd = *algorithms_.ccdToMidpoints;
     ccd.remember(bodies_);
     motion_.flyToMidpoint(bodies_, state_.renewed, half);
@@ -81,8 +83,8 @@ bool Step<S>::moveToMidpoints(bool same) {
     result_.impactsCut = result_.impactsCut || !inTime;
     motion_.finish(bodies_, half, tasks_);
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (state_.renewed[i] && bodies_.islands[i] == IslandSize::Large)
-            motion_.coast(bodies_, i, ofLarge - half);
+        if (state_.renewed[i] && bodies_.islands[i] != IslandKind::Usual)
+            motion_.coast(bodies_, i, halfOf(bodies_.islands[i]) - half);
     return true;
 }
 
@@ -96,24 +98,20 @@ void Step<S>::measureLead(std::size_t i) {
     lead.motion.w = smallTurn(lead.start.q, bodies_.pose[i].q);
 }
 
-/// Islands whose size has changed go to the midpoints of their new sub-steps, and their contacts with them.
-/// Large islands meet kinematic bodies there, too.
+/// Islands whose kind has changed go to the midpoints of their new sub-steps, and their contacts with them.
+/// They meet kinematic bodies there, too.
 template <class S>
-void Step<S>::changeHalves(std::span<const IslandSize> before) {
+void Step<S>::changeHalves(std::span<const IslandKind> before) {
     if (!motion_.isAtMidpoint()) return;
     std::vector<Velocity<S>>& moved = state_.way;
     moved.assign(bodies_.size(), Velocity<S>{});
-    const Real later = halfOf(IslandSize::Large) - halfOf(IslandSize::Usual);
     bool any = false;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const bool kinematic = bodies_.constants[i].type == BodyType::Kinematic;
-        if (kinematic)
-            moved[i] = {typename S::Vec(later * bodies_.velocity[i].v), Ang(later * bodies_.velocity[i].w)};
-        any = any || kinematic;
+        any = any || bodies_.constants[i].type == BodyType::Kinematic;
         if (bodies_.islands[i] == before[i] || bodies_.invMass[i] == 0) continue;
         any = true;
         const Pose<S> from = bodies_.pose[i];
-        motion_.coast(bodies_, i, bodies_.islands[i] == IslandSize::Large ? later : -later);
+        motion_.coast(bodies_, i, halfOf(bodies_.islands[i]) - halfOf(before[i]));
         moved[i] = {typename S::Vec(bodies_.pose[i].p - from.p), smallTurn(from.q, bodies_.pose[i].q)};
         measureLead(i);
     }
@@ -123,9 +121,10 @@ void Step<S>::changeHalves(std::span<const IslandSize> before) {
     };
     for (Contact<S>& contact : contacts_.list()) {
         const auto motionOf = [&](std::uint32_t i) {
-            const bool stays =
-                bodies_.constants[i].type == BodyType::Kinematic && contact.islands == IslandSize::Usual;
-            return stays ? Velocity<S>{} : moved[i];
+            if (bodies_.constants[i].type != BodyType::Kinematic) return moved[i];
+            const Real later = halfOf(contact.islands) - halfOf(IslandKind::Usual);
+            const Velocity<S>& velocity = bodies_.velocity[i];
+            return Velocity<S>{typename S::Vec(later * velocity.v), Ang(later * velocity.w)};
         };
         const Velocity<S> a = motionOf(contact.bodyA), b = motionOf(contact.bodyB);
         if (isStill(a) && isStill(b)) continue;
@@ -161,7 +160,7 @@ void Step<S>::moveContact(Contact<S>& contact, const typename S::Vec& pA, const 
 /// They show the state between two midpoints.
 template <class S>
 void Step<S>::toEnd() {
-    if (state_.anyUsual) releaseBroken();
+    if (state_.any.usual) releaseBroken();
     shortenLandings();
     const Real h = state_.substepSize;
     std::span<const Velocity<S>> way = motion_.used();
@@ -174,10 +173,12 @@ void Step<S>::toEnd() {
         way = state_.way;
     }
     const bool drifts = !joints_.records().empty() && state_.broken.empty() && beginDrift(false);
-    motion_.toEnd(bodies_, IslandSize::Usual, way, halfOf(IslandSize::Usual), tasks_);
-    if (state_.anyLarge)
-        algorithms_.large->motion.toEnd(bodies_, IslandSize::Large, algorithms_.large->motion.used(),
-                                        halfOf(IslandSize::Large), tasks_);
+    motion_.toEnd(bodies_, IslandKind::Usual, way, halfOf(IslandKind::Usual), tasks_);
+    for (const IslandKind islands : {IslandKind::Large, IslandKind::Violent}) {
+        if (!state_.any[islands]) continue;
+        Motion<S>& motion = algorithms_.method(islands).motion;
+        motion.toEnd(bodies_, islands, motion.used(), halfOf(islands), tasks_);
+    }
     endDrift(drifts, false);
     contacts_.keepSidesOfMidpoints(bodies_, tasks_);
     showContacts();
@@ -193,7 +194,7 @@ void Step<S>::releaseBroken() {
     world_.joints.findOverloaded(h * Real(method_.substeps), state_.broken);
     for (const JointId id : state_.broken) {
         const typename JointSet<S>::Record& record = world_.joints.record(id);
-        if (record.islands != IslandSize::Usual || record.rows == 0) continue;
+        if (record.islands != IslandKind::Usual || record.rows == 0) continue;
         const std::uint32_t a = record.joint.a, b = record.joint.b;
         const Velocity<S> beforeA = bodies_.velocity[a], beforeB = bodies_.velocity[b];
         Block<S> block;
@@ -265,14 +266,14 @@ void Step<S>::endDrift(bool drifts, bool there) {
     StepPositions<S> positions = jointPositions();
     if (!drifts) return algorithms_.correction->correct(positions, iterations, def_.slop);
     if (there) positions.takeOnly(state_.renewed);
-    const Real half = halfOf(IslandSize::Usual);
+    const Real half = halfOf(IslandKind::Usual);
     algorithms_.correction->endDrift(positions, there ? half : -half, !there, iterations);
 }
 
 #define RIGOR_INSTANTIATE(S)                                          \
     template void Step<S>::toMidpoints();                             \
-    template typename S::Real Step<S>::halfOf(IslandSize) const;      \
-    template void Step<S>::changeHalves(std::span<const IslandSize>); \
+    template typename S::Real Step<S>::halfOf(IslandKind) const;      \
+    template void Step<S>::changeHalves(std::span<const IslandKind>); \
     template void Step<S>::toEnd();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

@@ -38,7 +38,7 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
     out.block.rows = 0;
     out.count = 0;
     if (bodies_.invMass[a] == 0 && bodies_.invMass[b] == 0) return;  // asleep
-    if (record.islands == IslandSize::Large) return;                 // their joints are linearised
+    if (record.islands == IslandKind::Large) return;                 // their joints are linearised
     if (!only_.empty() && !only_[a] && !only_[b]) return;
     record.evaluateHere(bodies_, made);
     const auto count = static_cast<std::size_t>(made.count);

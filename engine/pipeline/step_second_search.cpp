@@ -33,7 +33,7 @@ constexpr std::size_t kShapeGrain = 256;  ///< least number of shapes for a task
 template <class S>
 void Step<S>::searchAgain() {
     if (algorithms_.fault != nullptr || hasMovingSurface() || !findDisturbed()) return;
-    contactModel_.store(contacts_.list(), rows_, true, tasks_);
+    if (contactModel_.storesOnce()) contactModel_.store(contacts_.list(), rows_, true, tasks_);
     // Bodies that are paused may have come to the midpoints of other sub-steps since the first search.
     const std::span<const std::uint8_t> paused = pausedBodies();
     for (std::size_t i = 0; i < paused.size(); ++i)
@@ -46,8 +46,8 @@ void Step<S>::searchAgain() {
                         *algorithms_.narrowPhase, algorithms_.makeManifold, *algorithms_.ccd, tasks_);
     world_.islands.changed();
     state_.searchedAgain = true;
-    if (state_.islands == IslandSize::Large) state_.searchTime += done;
-    // motionToEnd() has kinematic bodies beside large islands from state_.searchTime.
+    state_.searchTime[state_.islands] += done;
+    // motionToEnd() has kinematic bodies from state_.searchTime.
     for (std::size_t i = 0; i < state_.leads.size(); ++i)
         if (bodies_.constants[i].type != BodyType::Static && bodies_.islands[i] == state_.islands)
             state_.leads[i].middle = bodies_.pose[i];

@@ -26,24 +26,24 @@ typename S::Vec normalTurn(const Contact<S>& contact, const RowLags<S>& lags) {
 template <class S>
 void Step<S>::showContacts() {
     ContactList<S>& contacts = contacts_.list();
-    const bool foundAgain = algorithms_.large && state_.searchTime > halfOf(IslandSize::Large);
-    const Real laterOfLarge = Real(1) - state_.searchTime / state_.size;
     tasks_.forEach(contacts.size(), kBodyGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts[k];
         if (contact.asleep) {  // shown where it fell asleep
             contact.placed = false;
             return;
         }
-        if (contact.islands == IslandSize::Large) {
+        if (contact.islands != IslandKind::Usual) {
+            const Real found = state_.searchTime[contact.islands];
             RowLags<S> lags{};
             const typename S::Vec turn = contact.manifold.normal - contact.lastNormal;
             if (turn.squaredNorm() < kMostTurn<Real> * kMostTurn<Real>)
-                lags[0].normalTurn = laterOfLarge * turn;
+                lags[0].normalTurn = (Real(1) - found / state_.size) * turn;
             contact.lastNormal = contact.manifold.normal;
-            if (foundAgain) contact.lastNormal.setZero();  // another time than that of the next step
+            if (found > halfOf(contact.islands))
+                contact.lastNormal.setZero();  // another time than that of the next step
             return showAtEnd(contact, lags);
         }
-        const RowLags<S>* lags = state_.anyUsual ? contactModel_.lagsOf(k) : nullptr;
+        const RowLags<S>* lags = state_.any.usual ? contactModel_.lagsOf(k) : nullptr;
         showAtEnd(contact, lags != nullptr ? *lags : RowLags<S>{});
     });
 }
@@ -53,9 +53,9 @@ template <class S>
 Velocity<S> Step<S>::motionToEnd(const Contact<S>& contact, std::uint32_t body) const {
     const Lead<S>& lead = state_.leads[body];
     const Pose<S>& end = bodies_.pose[body];
-    if (contact.islands == IslandSize::Usual || bodies_.constants[body].type != BodyType::Kinematic)
+    if (contact.islands == IslandKind::Usual || bodies_.constants[body].type != BodyType::Kinematic)
         return {typename S::Vec(end.p - lead.middle.p), smallTurn(lead.middle.q, end.q)};
-    const Real share = state_.searchTime / halfOf(IslandSize::Usual);
+    const Real share = state_.searchTime[contact.islands] / halfOf(IslandKind::Usual);
     return {typename S::Vec(end.p - lead.start.p - share * lead.motion.v),
             Ang(smallTurn(lead.start.q, end.q) - share * lead.motion.w)};
 }

@@ -38,7 +38,7 @@ WorldBodies<S>::WorldBodies() {
     arrays_.wrench.emplace_back();
     arrays_.asleep.push_back(0);
     arrays_.stillTime.push_back(0);
-    arrays_.islands.push_back(IslandSize::Usual);
+    arrays_.islands.push_back(IslandKind::Usual);
     arrays_.constants.emplace_back();
     arrays_.constants[0].collides = false;
     arrays_.invMass.push_back(0);
@@ -75,7 +75,7 @@ BodyId WorldBodies<S>::add(const BodyDef<S>& def) {
     arrays_.wrench.emplace_back();
     arrays_.asleep.push_back(0);
     arrays_.stillTime.push_back(0);
-    arrays_.islands.push_back(IslandSize::Usual);
+    arrays_.islands.push_back(IslandKind::Usual);
     arrays_.constants.push_back(constants);
     arrays_.invMass.push_back(dynamic ? Real(1) / constants.mass : Real(0));
     arrays_.invInertiaLocal.push_back(dynamic ? inverseInertia<S>(constants.inertia) : zeroInertia<S>());
@@ -159,7 +159,7 @@ void WorldBodies<S>::setType(std::uint32_t body, BodyType type) {
     constants.inertia = zeroInertia<S>();
     arrays_.asleep[body] = 0;
     arrays_.stillTime[body] = 0;
-    arrays_.islands[body] = IslandSize::Usual;
+    arrays_.islands[body] = IslandKind::Usual;
     arrays_.invMass[body] = 0;
     arrays_.invInertiaLocal[body] = arrays_.invInertia[body] = zeroInertia<S>();
     if (type == BodyType::Static) arrays_.velocity[body] = {};

@@ -25,7 +25,8 @@ struct ShownContact {
 
 template <class S>
 bool hasActed(const Contact<S>& contact, std::size_t point) {
-    return contact.block[point] != kNullIndex || contact.asleep;
+    const bool before = contact.parted && contact.totals[point].normal > 0;  // the second search
+    return contact.block[point] != kNullIndex || contact.asleep || before;
 }
 
 template <class S>

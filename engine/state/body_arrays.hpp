@@ -13,7 +13,7 @@
 #include "engine/core/ids.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/math/space.hpp"
-#include "engine/state/island_size.hpp"
+#include "engine/state/island_kind.hpp"
 
 namespace rigor::engine {
 
@@ -95,7 +95,7 @@ struct BodyArrays {
     std::vector<Wrench<S>> wrench;            ///< acts during the next step, then cleared
     std::vector<std::uint8_t> asleep;         ///< 1: left out of the step (sleep.hpp)
     std::vector<typename S::Real> stillTime;  ///< time at rest, if bodies may sleep [s]
-    std::vector<IslandSize> islands;          ///< size of the island that each had in the last step
+    std::vector<IslandKind> islands;          ///< kind of the island that each had in the last step
     Midpoints<S> midpoints;
     // --- constant
     std::vector<BodyConstants<S>> constants;

@@ -27,7 +27,7 @@ struct BallOnGround {
             bodies.pose.emplace_back();
             bodies.velocity.emplace_back();
             bodies.asleep.push_back(0);
-            bodies.islands.push_back(IslandSize::Usual);
+            bodies.islands.push_back(IslandKind::Usual);
             bodies.constants.emplace_back().type = invMass > 0 ? BodyType::Dynamic : BodyType::Static;
             bodies.invMass.push_back(invMass);
             bodies.invInertia.push_back(invMass * Space3d::Inertia::Identity());

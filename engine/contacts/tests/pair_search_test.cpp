@@ -25,7 +25,7 @@ struct Crowd {
     explicit Crowd(std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {
             bodies.pose.emplace_back();
-            bodies.islands.push_back(IslandSize::Usual);
+            bodies.islands.push_back(IslandKind::Usual);
             bodies.constants.emplace_back().type = BodyType::Dynamic;
             ShapeRecord<Space2d> record;
             record.shape = Sphere<Space2d>{0.5};

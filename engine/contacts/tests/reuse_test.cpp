@@ -42,7 +42,7 @@ struct Pair {
             bodies.pose.emplace_back();
             bodies.velocity.emplace_back();
             bodies.asleep.push_back(0);
-            bodies.islands.push_back(IslandSize::Usual);
+            bodies.islands.push_back(IslandKind::Usual);
             bodies.id.emplace_back();
             bodies.constants.emplace_back().type = type;
             bodies.invMass.push_back(type == BodyType::Dynamic ? R(1) : R(0));
