@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/pipeline/tests/contact_load.hpp"
 #include "engine/pipeline/tests/scene.hpp"
 
 namespace rigor::engine::test {
@@ -125,9 +126,7 @@ void expectBothMoveAlone(const std::string& continuousCollision, const std::stri
     const std::size_t ofFew = part.size();
     many.world.readContacts(part);
     EXPECT_EQ(all.size(), ofFew + part.size());
-    double load = 0;
-    for (const ContactView<S>& contact : all)
-        if (contact.bodyA == both.ground) load += static_cast<double>(contact.normalImpulse);
+    const double load = normalImpulseOn<S>(both.world, both.ground);
     EXPECT_GT(load, 0.5 * kStep * kGravity * 15) << "the ground carries all boxes";
 }
 TYPED_TEST(IslandsBySize, EitherMovesAsWithoutTheOther) {
@@ -232,13 +231,7 @@ std::pair<double, double> growColumn(const WorldDef<S>& def) {
                 fastest = std::max(fastest, std::abs(static_cast<double>(scene.world.velocity(box)[1])));
         }
     }
-    std::vector<ContactView<S>> contacts;
-    scene.world.readContacts(contacts);
-    double load = 0;
-    for (const ContactView<S>& contact : contacts)
-        if (contact.bodyA == scene.ground || contact.bodyB == scene.ground)
-            load += static_cast<double>(contact.normalImpulse);
-    return {fastest, load / (kStep * kGravity * 12)};
+    return {fastest, normalImpulseOn<S>(scene.world, scene.ground) / (kStep * kGravity * 12)};
 }
 
 /// A column grows over the threshold: impulses pass from one method to the other as forces. The boxes sink to where
